@@ -130,4 +130,23 @@ Found find(const std::string& name, const std::string& folder, const Place& plac
   return found;
 }
 
+const std::vector<std::pair<std::string, std::string>>& builtin() {
+  static const auto known = [] {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Member& member : parse_toml(chen2007_text, "chen2007.toml").members) {
+      const Member* title = member.value.find("title");
+      names.emplace_back(member.key, title == nullptr ? "" : title->value.text);
+    }
+    return names;
+  }();
+  return known;
+}
+
+std::string builtin_table(const std::string& name) {
+  const std::size_t begin = chen2007_text.find("\n[" + name + "]\n");
+  if (begin == std::string_view::npos) return "";
+  const std::size_t end = chen2007_text.find("\n[", begin + 1);
+  return trimmed(std::string(chen2007_text.substr(begin, end - begin))) + "\n";
+}
+
 }  // namespace palpate::material

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/document.h"
@@ -36,5 +37,11 @@ struct Found {
 // relative to `folder`. Throws InputError: at `place` for an unknown name (with the nearest known
 // one), and at the line of the file for mistakes in the table.
 [[nodiscard]] Found find(const std::string& name, const std::string& folder, const Place& place);
+
+// The names of the built-in materials with their titles.
+[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& builtin();
+
+// The table of a built-in material as its file has it, with comments; empty for another name.
+[[nodiscard]] std::string builtin_table(const std::string& name);
 
 }  // namespace palpate::material

@@ -13,7 +13,12 @@ namespace fs = std::filesystem;
 fs::path example_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? fs::path() : program.parent_path().parent_path() / "share/palpate/scenarios";
+  const fs::path top = program.parent_path().parent_path();
+  const fs::path installed = top / "share/palpate/scenarios";
+  // A program that was built in a checkout takes those of the checkout.
+  const fs::path own = top.parent_path() / "scenarios";
+  if (!fs::exists(installed, error) && fs::exists(own / "quickstart.toml", error)) return own;
+  return error ? fs::path() : installed;
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // Looks for keys in the tables of the manual.
 #include "scenario/key_meaning.h"
 
+#include <cctype>
 #include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "material/tissue_table.h"
 #include "scenario/family.h"
 
 namespace palpate::scenario {
@@ -47,6 +49,28 @@ std::string kinds(const std::string& key, std::vector<std::string>& known) {
   return found;
 }
 
+// The rows of the manual that have a word of their own like this one, with the paths of their keys.
+std::string keys_that_name(const std::string& word) {
+  std::string section;
+  std::string found;
+  for (const std::string& line : split(manual(), '\n')) {
+    if (line.starts_with("## ")) section = line.substr(3);
+    const std::vector<std::string> cells = split(line, '|');
+    if (!line.starts_with("| `") || cells.size() < 6 || word.size() < 3) continue;
+    const std::string text = lower_case(cells[2] + cells[4]);
+    const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+      const std::size_t end = at + word.size();
+      if ((at > 0 && letter(text[at - 1])) || (end < text.size() && letter(text[end]))) continue;
+      const std::string name = line.substr(3, line.find('`', 3) - 3);
+      const std::string table = table_of(section);
+      found += "  " + (table.empty() ? name : table + "." + name) + ": " + trimmed(cells[4]) + "\n";
+      break;
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 std::string meaning_of_key(const std::string& asked) {
@@ -75,6 +99,10 @@ std::string meaning_of_key(const std::string& asked) {
              "\n  default: " + trimmed(cells[3]) + "\n  " + trimmed(cells[4]) + "\n";
   }
   if (!found.empty()) return found;
+  if (const std::string table = material::builtin_table(key); !table.empty())
+    return "`" + key + "` is a built-in value of `tissue.material`:\n" + table;
+  if (const std::string keys = keys_that_name(key); !keys.empty())
+    return "`" + key + "` is no key; these have to do with it:\n" + keys;
   const auto near = nearest(key, known);
   refuse("`" + asked + "` is neither a file nor a key" +
          (near ? "; did you mean `" + *near + "`?" : "; `palpate manual` lists all keys"));

@@ -1,6 +1,7 @@
 // The tree of all keys, and what [sweep] adds to it.
 #include "scenario/schema.h"
 
+#include "material/tissue_table.h"
 #include "scenario/design.h"
 #include "scenario/scenario.h"
 
@@ -41,6 +42,15 @@ std::string schema() {
   return json_schema(tree(), "A scenario of palpate", {{"sweep", sweep_schema()}});
 }
 
-std::vector<FlatKey> settable_keys() { return flat_keys(tree()); }
+std::vector<FlatKey> settable_keys() {
+  std::vector<FlatKey> keys = flat_keys(tree());
+  for (FlatKey& key : keys) {
+    if (!key.path.ends_with("material")) continue;
+    for (const auto& [name, title] : material::builtin())
+      key.words.push_back({name.c_str(), title.c_str()});
+    if (key.path == "finger.material") key.words.push_back({"rigid", "undeformed"});
+  }
+  return keys;
+}
 
 }  // namespace palpate::scenario

@@ -134,6 +134,17 @@ TEST_F(Messages, ExplainKnowsKeysAndTables) {
                  "manual` lists all keys");
 }
 
+TEST_F(Messages, AWordThatIsNoKeyIsFoundInTheManualAndTheTissues) {
+  const std::string muscle = palpate("explain muscle").out;
+  EXPECT_NE(muscle.find("young_modulus = { value = \"6 kPa\""), std::string::npos) << muscle;
+  EXPECT_EQ(muscle.find("[bone]"), std::string::npos) << muscle;
+  const std::string travel = palpate("explain travel").out;
+  EXPECT_NE(travel.find("\n  step.to: Travel below the undeformed surface"), std::string::npos)
+      << travel;
+  EXPECT_NE(palpate("complete run a --set finger.material=").out.find("finger.material=rigid\t"),
+            std::string::npos);
+}
+
 TEST_F(Messages, AnswersGoToStdout) {
   for (const char* asked :
        {"--help", "run --help", "explain --help", "fit --help", "compare --help",
