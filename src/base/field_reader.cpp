@@ -101,10 +101,7 @@ class Reader final : public FieldVisitor {
     si.clear();
     in_list_ = true;
     for (const Node& item : node->items) {
-      double& read = si.emplace_back();
-      if (read_quantity(key, item, read, unit, range) &&
-          std::find(si.begin(), si.end() - 1, read) != si.end() - 1)
-        problem(item.place, ticked(key.name) + " has " + ticked(item.shown()) + " twice; keep one");
+      (void)read_quantity(key, item, si.emplace_back(), unit, range);
     }
     in_list_ = false;
   }

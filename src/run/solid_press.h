@@ -55,6 +55,8 @@ class SolidPress {
 
   const scene::Scene* scene_;
   Surface surface_ = Surface::smooth;
+  bool included_ = false;        // balls of another tissue
+  double inclusion_size_ = 1.0;  // of their radii
   std::optional<scene::SolidBody> flat_;
   std::vector<std::unique_ptr<solid::FingerPress>> presses_;  // coarsest mesh first
   std::vector<double> per_radius_;

@@ -30,6 +30,7 @@ class Checker {
     steps();
     shapes();
     methods();
+    forces_at();
     time_step();
     if (problems_.size() == before) rows();  // a wrong step also has a wrong duration
   }
@@ -395,6 +396,15 @@ class Checker {
                 "a slide cannot keep a force that relaxes; write `keep = \"travel\"`, or "
                 "`contact.viscosity = \"none\"`");
     }
+  }
+
+  void forces_at() {
+    const std::vector<double>& depths = scenario_.output.force_at;
+    for (std::size_t i = 1; i < depths.size(); ++i)
+      if (std::find(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(i), depths[i]) !=
+          depths.begin() + static_cast<std::ptrdiff_t>(i))
+        return problem("output.force_at",
+                       "`force_at` has " + quantity_text(depths[i], unit::mm) + " twice; keep one");
   }
 
   void time_step() {

@@ -312,7 +312,11 @@ void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& 
   refuse_unstable(scene, family);
   refuse_large_modal(scene, family);
   // Finds a finger that passes beside its specimen before the first case runs.
-  if (!scenario.uniform()) (void)first_touch(scene);
+  if (!scenario.uniform()) {
+    const geometry::SmoothSurface& surface = *scene.specimen->surface;
+    refuse_held(scenario, base_level(scenario, surface.surface()),
+                surface.position(first_touch(scene).at));
+  }
   refuse_unresolved(scene);
 }
 

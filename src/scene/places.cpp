@@ -120,9 +120,14 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
   const Eigen::Matrix3d turn = turn_up(scenario.uniform() ? up : Vec3(-towards));
   scenario.tissue.turn = turn;
   const Vec3 base_up = -direction_or(scenario.tissue.base_side, -up);
-  // To the last bit where the finger comes against it.
-  scenario.tissue.base_up =
-      base_up == -towards || scenario.uniform() ? Vec3(Vec3::UnitZ()) : Vec3(turn * base_up);
+  // To the last bit along an axis of the scene, where the file's rounding is all that differs.
+  constexpr double rounding = 1e-6;
+  scenario.tissue.base_up = scenario.uniform() ? Vec3(Vec3::UnitZ()) : Vec3(turn * base_up);
+  for (const int axis : {0, 1, 2})
+    for (const double sign : {1.0, -1.0})
+      if (const Vec3 along = sign * Vec3::Unit(axis);
+          (scenario.tissue.base_up - along).norm() < rounding)
+        scenario.tissue.base_up = along;
   for (scenario::Resolved::Region& region : scenario.regions)
     if (auto* lump = std::get_if<scenario::Lump>(&region.part)) {
       const Vec3 centre = turn * Vec3(lump->centre[0], lump->centre[1], lump->centre[2]);
@@ -148,6 +153,47 @@ Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places
   return box;
 }
 
+namespace {
+
+// The height of the flat underside at `low`, with the rounding of a file; nothing where the lowest
+// triangles are facets of a round body: a small part of its surface with blunt edges around it.
+std::optional<double> flat_underside(const geometry::Surface& body, const Vec3& up, double low) {
+  constexpr double least_part = 0.05;
+  const Box box = box_of(body.vertices);
+  const double rounding = 1e-5 * (box.high - box.low).norm();
+  double level = low, flat = 0.0, all = 0.0, sharp = 0.0, around = 0.0;
+  std::vector<char> lowest(body.triangles.size(), 0);
+  for (std::size_t t = 0; t < lowest.size(); ++t) {
+    double highest = low;
+    for (const int vertex : body.triangles[t])
+      highest = std::max(highest, body.vertices[as_index(vertex)].dot(up));
+    const double area = geometry::twice_area(body, static_cast<int>(t)).norm();
+    all += area;
+    if (highest > low + rounding) continue;
+    lowest[t] = 1;
+    flat += area;
+    level = std::max(level, highest);
+  }
+  if (!(flat > 0.0)) return std::nullopt;
+  if (flat > least_part * all) return level;
+  const geometry::Neighbours neighbours(body);
+  for (std::size_t t = 0; t < lowest.size(); ++t)
+    for (std::size_t side = 0; side < 3 && lowest[t] != 0; ++side) {
+      const int other = neighbours.across(static_cast<int>(t))[side];
+      if (other < 0 || lowest[as_index(other)] != 0) continue;
+      const double length = (body.vertices[as_index(body.triangles[t][(side + 1) % 3])] -
+                             body.vertices[as_index(body.triangles[t][side])])
+                                .norm();
+      around += length;
+      if (geometry::twice_area(body, other).normalized().dot(-up) < geometry::crease_cosine)
+        sharp += length;
+    }
+  if (sharp > 0.5 * around) return level;
+  return std::nullopt;
+}
+
+}  // namespace
+
 double base_level(const scenario::Resolved& scenario, const geometry::Surface& body) {
   if (scenario.tissue.base_height) return *scenario.tissue.base_height;
   const Vec3& up = scenario.tissue.base_up;
@@ -157,14 +203,14 @@ double base_level(const scenario::Resolved& scenario, const geometry::Surface& b
     low = std::min(low, vertex.dot(up));
     high = std::max(high, vertex.dot(up));
   }
-  const double rounding = 1e-9 * (high - low);
-  const bool flat =
-      std::any_of(body.triangles.begin(), body.triangles.end(), [&](const auto& triangle) {
-        return std::all_of(triangle.begin(), triangle.end(), [&](int vertex) {
-          return body.vertices[as_index(vertex)].dot(up) <= low + rounding;
-        });
-      });
-  return low + (flat ? 0.0 : 0.1 * (high - low));
+  return flat_underside(body, up, low).value_or(low + 0.1 * (high - low));
+}
+
+void refuse_held(const scenario::Resolved& scenario, double base_level, const Vec3& touched) {
+  if (touched.dot(scenario.tissue.base_up) <= base_level)
+    throw MeshError(
+        "the finger presses the side that the base holds, which cannot give way; change "
+        "`finger.at` or `finger.towards`, or `tissue.base_side` or `tissue.base_height`");
 }
 
 BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& body,

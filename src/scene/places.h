@@ -40,8 +40,11 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
 
 // The height (m) along `tissue.base_up` to which the surface is the base: `tissue.base_height`, or
 // the lowest plane of a body with a flat underside, or a tenth of its height above its lowest
-// point.
+// point. Flat is an underside with a twentieth of the surface, or with sharp edges around it.
 [[nodiscard]] double base_level(const scenario::Resolved& scenario, const geometry::Surface& body);
+
+// Throws MeshError for a place (m) of the surface that the base holds, which no finger can press.
+void refuse_held(const scenario::Resolved& scenario, double base_level, const Vec3& touched);
 
 // The part of the surface's area that is the base, and how much of the underside within a radius
 // (m) around a place, seen from above, belongs to it.

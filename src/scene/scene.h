@@ -187,7 +187,9 @@ struct Scene {
 // Whether all regions are layers; true without regions.
 [[nodiscard]] bool all_slabs(const scenario::Resolved& scenario);
 
-// Whether a region has another Young's modulus or Poisson's ratio than the tissue.
+// Whether a region has another Young's modulus or Poisson's ratio than the tissue, or is an
+// inclusion: one of the tissue's own modulus takes the model that it would take with another, so
+// that both can be compared.
 [[nodiscard]] bool several_tissues(const scenario::Resolved& scenario);
 
 // The flat layers of a cuboid, with the tissue on top. `share` as in contact::Layer.

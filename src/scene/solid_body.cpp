@@ -58,9 +58,10 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   if (body->shape && touch.known() && scene.finger.centres.size() == 1) {
     body->first_touch = touch.lowest + scene.finger.sphere_radius * Vec3::UnitZ();
     body->touched = touch.position;
-    return body;
+  } else {
+    find_touch(*body, scene);
   }
-  find_touch(*body, scene);
+  refuse_held(scenario, body->base_level, body->touched);
   return body;
 }
 

@@ -75,9 +75,10 @@ SpecimenShape make_shape(const Scenario& scenario, const std::string& folder,
                          const geometry::SmoothSurface* of_file) {
   auto [mesh, remark, names] =
       specimen_mesh(scenario, folder, of_file == nullptr ? nullptr : &of_file->surface());
-  const double low = reach(mesh).first;
+  const auto [low, high] = reach(mesh);
+  const double rounding = 1e-4 * (high - low);  // of files, in a flat underside
   const double level = base_level(scenario, geometry::skin(mesh).surface);
-  if (level > low && !scenario.uniform() && scenario.tissue.held_from_below() &&
+  if (level > low + rounding && !scenario.uniform() && scenario.tissue.held_from_below() &&
       !std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
     mesh = meshing::cut_at(std::move(mesh), level, true, parametric(scenario.tissue.shape));
     meshing::check(mesh, "the mesh, cut at the border of the base,", 0.0);

@@ -60,12 +60,12 @@ Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
   return sizes;
 }
 
-// The plane to which the base reaches, where it is normal to an axis.
-std::optional<Plane> base_plane(const BodyOrder& order) {
+// The plane to which the base reaches.
+Plane base_plane(const BodyOrder& order) {
   for (const int axis : {0, 1, 2})
     if (std::abs(order.base_up[axis]) == 1.0)
-      return Plane{axis, order.base_up[axis] * order.base_level};
-  return std::nullopt;
+      return {axis, order.base_up[axis] * order.base_level};
+  return {.at = order.base_level, .inclined = order.base_up};
 }
 
 // The mirrors of the order that the body has as well.

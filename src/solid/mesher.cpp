@@ -59,9 +59,8 @@ class Mesher {
           if (level > low_.z() && level < high_.z()) add_level(level);
     for (const Plane& level : levels_) net.cut(level);
     if (const auto& base = order_.base;
-        base && base->at > low_[base->axis] && base->at < high_[base->axis] &&
-        std::none_of(levels_.begin(), levels_.end(), [&](const Plane& level) {
-          return level.axis == base->axis && level.at == base->at;
+        base && std::none_of(levels_.begin(), levels_.end(), [&](const Plane& level) {
+          return !base->inclined && level.axis == base->axis && level.at == base->at;
         }))
       net.cut(*base);
     fill_planes(net);

@@ -26,11 +26,11 @@ Vec3 placed_onto(Vec3 point, const std::function<Vec3(const Vec3&)>& onto,
   constexpr int most_rounds = 30;
   for (int i = 0; i < most_rounds && !planes.empty(); ++i) {
     const Vec3 before = point;
-    for (const Plane& plane : planes) point[plane.axis] = plane.at;
+    for (const Plane& plane : planes) plane.place(point);
     if ((point - before).norm() <= 1e-12 * point.norm()) break;
     point = onto(point);
   }
-  for (const Plane& plane : planes) point[plane.axis] = plane.at;
+  for (const Plane& plane : planes) plane.place(point);
   return point;
 }
 
@@ -154,7 +154,7 @@ void SurfaceNet::cut(const Plane& plane) {
   std::vector<Edge> crossing;
   const double rounding = 1e-9 * (vertices_.front() - vertices_.back()).norm();
   for (Vec3& vertex : vertices_)
-    if (std::abs(plane.beyond(vertex)) < rounding) vertex[plane.axis] = plane.at;
+    if (std::abs(plane.beyond(vertex)) < rounding) plane.place(vertex);
   for (const auto& [edge, around] : at_)
     if (plane.beyond(vertices_[as_index(edge[0])]) * plane.beyond(vertices_[as_index(edge[1])]) <
         0.0)
@@ -277,7 +277,7 @@ void SurfaceNet::smooth() {
       if (plane.beyond(before) != 0.0) continue;
       for (const int other : near[v])
         leaves = leaves || plane.beyond(vertices_[as_index(other)]) != 0.0;
-      middle[plane.axis] = plane.at;
+      plane.place(middle);
     }
     if (leaves) continue;
     std::vector<Vec3> normals;

@@ -1,8 +1,10 @@
 // Triangles of a body's faces, inner ones too, that are cut at planes and refined.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,12 +12,25 @@
 
 namespace palpate::solid {
 
-// A plane normal to an axis.
+// A plane normal to an axis, or to another direction. Points of the first have its coordinate to
+// the last bit, those of the second within rounding.
 struct Plane {
   int axis = 0;
-  double at = 0.0;  // m
+  double at = 0.0;                    // m, along the axis or the direction
+  std::optional<Vec3> inclined = {};  // unit normal
 
-  [[nodiscard]] double beyond(const Vec3& point) const { return point[axis] - at; }
+  [[nodiscard]] double beyond(const Vec3& point) const {
+    constexpr double rounding = 1e-13;  // m
+    if (!inclined) return point[axis] - at;
+    const double above = inclined->dot(point) - at;
+    return std::abs(above) < rounding ? 0.0 : above;
+  }
+  void place(Vec3& point) const {
+    if (inclined)
+      point -= beyond(point) * *inclined;
+    else
+      point[axis] = at;
+  }
 };
 
 // A point near `point` on a surface, given by its projection, and on planes.

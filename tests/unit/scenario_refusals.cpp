@@ -181,7 +181,7 @@ TEST(Refusals, Ranges) {
       {"[output]\nforce_at = [\"0 mm\"]\n",
        "press.toml:5:13: `force_at` must be above 0 mm, got `0 mm" + range},
       {"[output]\nforce_at = [\"1 mm\", \"2 mm\", \"0.1 cm\"]\n",
-       "press.toml:5:29: `force_at` has `0.1 cm` twice; keep one"},
+       "press.toml:5:12: `force_at` has 1 mm twice; keep one"},
       {"[solver]\ntolerance = 0\n",
        "press.toml:5:13: `tolerance` must be above 0 and below 1, got `0" + range},
       {"[solver]\nsubsteps = 0\n",
