@@ -253,14 +253,13 @@ class Findings {
     const scene::Estimates& e = expected_;
     const bool mesh = rung_.meshed();
     const double depth = peak.indentation / scene_.law().radius;
-    const auto& ratio = expected_.depth_ratio;
-    if (!contact::mesh_is_tissue(coupling) && ratio && peak.travel > ratio->last_depth() &&
-        depth > 0.1)
+    const auto& ratio = scene_.depth_ratio;  // where it is used
+    if (!contact::mesh_is_tissue(coupling) && !rung_.solid && ratio &&
+        peak.travel > ratio->last_depth() && depth > 0.1)
       remark("the travel reached " + quantity_text(peak.travel, unit::mm) +
              ", and the factor for deep presses is known up to " +
-             quantity_text(ratio->last_depth(), unit::mm) + " here: the force is off by about " +
-             percent_text(std::abs(e.deep) + e.deep_error) +
-             "; press less deep, or compare with `coupling = \"resolved\"`");
+             quantity_text(ratio->last_depth(), unit::mm) + " here: the force may be off by " +
+             percent_text(e.deep_error) + "; press less deep, or take `solver.model = \"solid\"`");
     if (mesh && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent_text(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +

@@ -88,6 +88,11 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   // Spheres that stand for one have its law, others each their own.
   const bool several =
       scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::mass;
+  double ratio = tissue.poisson_ratio;
+  for (const auto& region : scenario.regions) ratio = std::min(ratio, region.poisson_ratio);
+  const double radius = several ? make_finger(scenario).sphere_radius : law.radius;
+  const double bound = contact::depth_bound(found.tissue_share * found.travel, radius,
+                                            softest_thickness(scenario, touch), ratio);
   if (flat && !several && !several_tissues(scenario) && found.edge == 0.0) {
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     found.depth_ratio = contact::depth_ratio({.radius = scenario.finger.radius,
@@ -98,15 +103,13 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                                               .half_width = touch.to_edge});
     if (found.depth_ratio) {
       found.deep = found.depth_ratio->value(found.travel) - 1.0;
-      found.deep_error = found.depth_ratio->error(found.travel);
+      // Where its formula ends, no slope of it says what follows.
+      const bool beyond = found.travel > found.depth_ratio->last_depth();
+      found.deep_error = beyond ? bound : found.depth_ratio->error(found.travel);
       return;
     }
   }
-  double ratio = tissue.poisson_ratio;
-  for (const auto& region : scenario.regions) ratio = std::min(ratio, region.poisson_ratio);
-  const double radius = several ? make_finger(scenario).sphere_radius : law.radius;
-  found.deep_error = contact::depth_bound(found.tissue_share * found.travel, radius,
-                                          softest_thickness(scenario, touch), ratio);
+  found.deep_error = bound;
 }
 
 // The way from an edge to the nearest of the finger's spheres, m; 0 where one hangs over it.

@@ -190,26 +190,34 @@ std::optional<Answer> FingerPress::go(double travel) {
   if (!found) {
     const double reached = order_.touch.finger.z() - press_->reached().z();
     reason_ = "the solid finds no equilibrium beyond a travel of " +
-              quantity_text(reached, unit::mm) + ": the tissue folds there; press less deep";
+              rounded_text(unit::mm.from_si(reached), 3) +
+              " mm: the tissue folds there; press less deep";
   }
   return found;
 }
 
 // Points at a quarter and half of the order's travel and there, and beyond it by up to half more at
-// a time: the curve does not depend on what was asked first.
+// a time: the curve does not depend on what was asked first. Where there is no equilibrium, the
+// last point is as deep as one was found.
 bool FingerPress::reach(double travel) {
+  const auto take = [&](double at, const std::optional<Answer>& answer) {
+    if (!answer) return;
+    tissue_.reached = at;
+    if (answer->normal() > 0.0)
+      tissue_.points.push_back(
+          {at - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
+  };
   const double deepest = order_.share * order_.deepest;
   while (reason_.empty() && tissue_.reached < std::max(deepest, travel)) {
     double next = tissue_.reached > 0.0 ? 2.0 * tissue_.reached : 0.25 * deepest;
     if (tissue_.reached >= deepest) next = std::min(next, 1.5 * tissue_.reached);
-    const auto answer = go(next);
-    if (!answer) break;
-    tissue_.reached = next;
-    if (answer->normal() > 0.0)
-      tissue_.points.push_back(
-          {next - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
+    take(next, go(next));
+    if (reason_.empty()) continue;
+    constexpr double farther = 1.02;
+    const double found = order_.share * (order_.touch.finger.z() - press_->reached().z());
+    if (found > farther * tissue_.reached) take(found, press_->go(press_->reached()));
   }
-  return reason_.empty();
+  return reason_.empty() || (!order_.ball && travel <= tissue_.reached);
 }
 
 double FingerPress::shared(const Curve& tissue, double travel, double power) const {
@@ -272,7 +280,7 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
   }
   if (!(travel > 0.0)) return Moment{};
   const double own = tissue_travel(travel);
-  if (!reason_.empty()) return std::nullopt;
+  if (!reason_.empty() && (order_.ball || own > tissue_.reached)) return std::nullopt;
   if (tissue_.points.empty()) return Moment{};
   Pairs force;
   Pairs radius;

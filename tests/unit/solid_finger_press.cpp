@@ -67,6 +67,29 @@ TEST(FingerPress, IsOneCurveWhateverIsAskedFirst) {
   EXPECT_EQ(up.at_travel(0.0)->force, 0.0);
 }
 
+// A layer that folds at nine tenths of this travel keeps the force up to there.
+TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
+  FingerOrder order;
+  order.body.shape = geometry::Cuboid{Vec3(0.04, 0.04, 0.005)};
+  order.body.tissues = {{10e3, 0.45}};
+  order.body.mirrored = {true, true};
+  order.radius = 10e-3;
+  order.deepest = 4e-3;
+  touch(order, Vec3(0.02, 0.02, 0.005));
+  FingerPress folds(order);
+  EXPECT_FALSE(folds.at_travel(4e-3));
+  EXPECT_NE(folds.reason().find("no equilibrium beyond a travel of 3.6"), std::string::npos)
+      << folds.reason();
+  order.deepest = 3e-3;
+  FingerPress holds(order);
+  for (const double travel : {1e-3, 2e-3, 3e-3}) {
+    const auto kept = folds.at_travel(travel);
+    const auto found = holds.at_travel(travel);
+    ASSERT_TRUE(kept && found);
+    EXPECT_NEAR(kept->force, found->force, 0.02 * found->force);  // two meshes
+  }
+}
+
 // An elastic finger as stiff as the tissue, of one radius: Hertz's force, less by the ball's size.
 TEST(FingerPress, AnElasticFingerIsABallOfItsOwnSize) {
   FingerOrder order = plain();
