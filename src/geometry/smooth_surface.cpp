@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace palpate::geometry {
@@ -34,6 +35,7 @@ SmoothSurface::SmoothSurface(Surface surface, double least)
       normals_(surface_.triangles.size()),
       vertex_normals_(vertex_normals(surface_)) {
   find_creases(least);
+  find_blunt_edges();
   find_normals();
 }
 
@@ -45,6 +47,65 @@ void SmoothSurface::find_creases(double least) {
       crease_[t][edge] = other < 0 || own.dot(twice_area(surface_, other).normalized()) < least;
     }
   }
+}
+
+// A curved surface bends at many lines, so that a flat part between them has one on either side. A
+// line at which two flat parts meet that bend nowhere else, but for creases, is a blunt edge.
+void SmoothSurface::find_blunt_edges() {
+  constexpr double flat_cosine = 0.99996;  // half a degree
+  constexpr double least_cosine = 0.9986;  // 3 degrees
+  const int count = static_cast<int>(surface_.triangles.size());
+  std::vector<Vec3> normals;
+  for (int t = 0; t < count; ++t) normals.push_back(twice_area(surface_, t).normalized());
+  const auto bend = [&](int t, std::size_t edge) {
+    return normals[as_index(t)].dot(normals[as_index(neighbours_.across(t)[edge])]);
+  };
+  const auto ends = [&](int t, std::size_t edge) {
+    const auto& corners = surface_.triangles[as_index(t)];
+    return std::pair(surface_.vertices[as_index(corners[edge])],
+                     surface_.vertices[as_index(corners[(edge + 1) % 3])]);
+  };
+  // Flat parts, and whether all their bent edges lie on one line.
+  struct Part {
+    std::optional<std::pair<Vec3, Vec3>> line;
+    bool one = true;
+  };
+  std::vector<int> part_of(as_index(count), -1);
+  std::vector<Part> parts;
+  for (int first = 0; first < count; ++first) {
+    if (part_of[as_index(first)] >= 0) continue;
+    const int name = static_cast<int>(parts.size());
+    Part part;
+    part_of[as_index(first)] = name;
+    std::vector<int> own{first};
+    for (std::size_t i = 0; i < own.size(); ++i)
+      for (std::size_t edge = 0; edge < 3; ++edge) {
+        if (crease(own[i], edge)) continue;
+        const int next = neighbours_.across(own[i])[edge];
+        if (bend(own[i], edge) > flat_cosine) {
+          if (part_of[as_index(next)] < 0) own.push_back(next);
+          part_of[as_index(next)] = name;
+          continue;
+        }
+        const auto [a, b] = ends(own[i], edge);
+        if (!part.line) part.line.emplace(a, b);
+        const Vec3 along = (part.line->second - part.line->first).normalized();
+        const double near = 1e-3 * (part.line->second - part.line->first).norm();
+        for (const Vec3& end : {a, b})
+          part.one = part.one && along.cross(end - part.line->first).norm() < near;
+      }
+    parts.push_back(part);
+  }
+  std::vector<std::pair<int, std::size_t>> blunt;
+  for (int t = 0; t < count; ++t)
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      if (crease(t, edge) || bend(t, edge) > least_cosine) continue;
+      const int other = neighbours_.across(t)[edge];
+      if (parts[as_index(part_of[as_index(t)])].one &&
+          parts[as_index(part_of[as_index(other)])].one)
+        blunt.emplace_back(t, edge);
+    }
+  for (const auto& [t, edge] : blunt) crease_[as_index(t)][edge] = true;
 }
 
 void SmoothSurface::find_normals() {

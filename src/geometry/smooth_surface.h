@@ -15,7 +15,8 @@ struct SurfacePoint {
   Vec3 weights = Vec3::Zero();
 };
 
-// An edge between triangles whose normals differ by more than this is a crease; so is a boundary.
+// An edge between triangles whose normals differ by more than this is a crease; so is a boundary,
+// and a line at which two flat parts meet that bend nowhere else.
 inline constexpr double crease_cosine = 0.766044443118978;  // 40 degrees
 
 // Normals vary linearly over a triangle between those of its corners, and points are displaced
@@ -72,6 +73,7 @@ class SmoothSurface {
   [[nodiscard]] Foot at(const Vec3& point, const SurfacePoint& where) const;
   [[nodiscard]] Vec3 pseudo_normal(const SurfacePoint& point) const;
   void find_creases(double least);
+  void find_blunt_edges();
   void find_normals();
 
   Surface surface_;

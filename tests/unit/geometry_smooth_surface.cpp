@@ -88,6 +88,46 @@ TEST(SmoothSurface, IsItsTrianglesWhereEveryEdgeIsACrease) {
   EXPECT_GT(most, 0.01);  // which the smooth surface is not
 }
 
+int creases(const Surface& surface) {
+  const SmoothSurface smooth(surface);
+  int count = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    for (std::size_t edge = 0; edge < 3; ++edge)
+      count += smooth.crease(static_cast<int>(t), edge) ? 1 : 0;
+  return count;
+}
+
+// A house with a ridge of 150 degrees: its roof, of four triangles, is no rounded surface. The
+// sides of a prism with bends of the same size are a cylinder, and its ends are not.
+TEST(SmoothSurface, KnowsABluntRidgeFromACylinder) {
+  const auto prism = [](const std::vector<Vec3>& outline) {
+    Surface surface;
+    const int n = static_cast<int>(outline.size());
+    for (const double y : {0.0, 3.0})
+      for (const Vec3& corner : outline) surface.vertices.emplace_back(corner.x(), y, corner.z());
+    for (int i = 0; i < n; ++i) {
+      const int next = (i + 1) % n;
+      surface.triangles.push_back({i, next + n, i + n});
+      surface.triangles.push_back({i, next, next + n});
+      if (i > 0 && i + 1 < n) {
+        surface.triangles.push_back({0, next, i});
+        surface.triangles.push_back({n, i + n, next + n});
+      }
+    }
+    return surface;
+  };
+  const double rise = 2.0 * std::tan(15.0 / 180.0 * M_PI);
+  // Clockwise as seen along y: the normals point outwards.
+  const Surface house = prism({{-2, 0, 0}, {-2, 0, 1}, {0, 0, 1.0 + rise}, {2, 0, 1}, {2, 0, 0}});
+  ASSERT_GT(geometry::enclosed(house).volume, 0.0);
+  EXPECT_EQ(creases(house), 2 * (3 * 5));  // five lines along y and five at each end
+  std::vector<Vec3> round;
+  for (int i = 0; i < 12; ++i)
+    round.emplace_back(-std::cos(i * M_PI / 6.0), 0.0, std::sin(i * M_PI / 6.0));
+  EXPECT_EQ(creases(prism(round)), 2 * (2 * 12));  // the ends alone
+  EXPECT_EQ(creases(geometry::ellipsoid_surface(Vec3::Zero(), Vec3::Constant(2.0), 0.5)), 0);
+}
+
 // A foot's errors over points near the surface: the greatest in height, the mean in the normal.
 struct Errors {
   double height = 0.0, normal = 0.0;
