@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -19,8 +20,13 @@ namespace {
 
 constexpr double least_inside = 0.99;
 
+// With four digits of its length, however far from the origin it lies.
 std::string range_text(double low, double high) {
-  return rounded_text(unit::mm.from_si(low), 4) + " to " + rounded_text(unit::mm.from_si(high), 4);
+  const double far = std::max(std::abs(low), std::abs(high));
+  const int more = high > low ? static_cast<int>(std::log10(far / (high - low))) : 0;
+  const int digits = 4 + std::clamp(more, 0, 9);
+  return rounded_text(unit::mm.from_si(low), digits) + " to " +
+         rounded_text(unit::mm.from_si(high), digits);
 }
 
 // What is wrong with a region of which `inside` lies in the body; both are named with their boxes.
@@ -218,7 +224,7 @@ BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& 
   const Vec3& up = scenario.tissue.base_up;
   const Box box = box_of(body.vertices);
   const double level = base_level(scenario, body) + 1e-9 * (box.high - box.low).norm();
-  double base = 0.0, below = 0.0, held = 0.0;
+  double base = 0.0, below = 0.0, held = 0.0, whole = 0.0, whole_held = 0.0;
   for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
     Vec3 middle = Vec3::Zero();
     for (const int vertex : body.triangles[as_index(t)])
@@ -226,10 +232,14 @@ BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& 
     const Vec3 area = 0.5 * geometry::twice_area(body, t);
     const bool fixed = middle.dot(up) <= level;
     if (fixed) base += area.norm();
-    if (area.z() >= 0.0 || (middle - place).head<2>().norm() > radius) continue;
+    if (area.z() >= 0.0) continue;
+    whole -= area.z();
+    if (fixed) whole_held -= area.z();
+    if ((middle - place).head<2>().norm() > radius) continue;
     below -= area.z();
     if (fixed) held -= area.z();
   }
+  if (!(below > 0.0)) std::tie(held, below) = std::pair(whole_held, whole);  // of few triangles
   return {base / geometry::area(body), below > 0.0 ? held / below : 0.0};
 }
 
