@@ -2,14 +2,48 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "compare/tolerances.h"
+#include "base/error.h"
 #include "record/table.h"
 
 namespace palpate::compare {
+
+// Numbers are equal where |got - want| <= abs + rel |want|; `abs` is in the column's own unit.
+struct Tolerance {
+  double rel = 1e-9;
+  double abs = 0.0;
+  bool ignore = false;
+  std::string reason = {};
+};
+
+// With a tube, rows are not compared one by one: a value is equal if it lies, within its tolerance,
+// between the minimum and the maximum of the other result over x - width to x + width.
+struct Tube {
+  std::string x = {};  // name of the column of x
+  double width = 0.0;  // in the unit of that column
+};
+
+struct Tolerances {
+  Tolerance standard;
+  std::map<std::string, Tolerance> columns = {};
+  std::optional<Tube> tube = {};
+  // Where the file names a column, that of the tube included.
+  std::vector<std::pair<std::string, Place>> places = {};
+
+  [[nodiscard]] const Tolerance& of(const std::string& column) const;
+};
+
+// Reads TOML with `[default]` and `[column.NAME]` (keys `rel`, `abs`, `ignore`, `reason`; a column
+// takes missing keys, except `reason`, from the default) and `[tube]` (keys `x`, `width`). Throws
+// InputError with all problems at file:line:column.
+[[nodiscard]] Tolerances parse_tolerances(std::string_view text, const std::string& file);
+[[nodiscard]] Tolerances read_tolerances(const std::string& path);
 
 // The row with the largest difference relative to the tolerance.
 struct WorstRow {
@@ -47,7 +81,7 @@ struct Comparison {
 
 // Compares row by row, with columns identified by name, in any order. NaN equals NaN, an infinity
 // one of the same sign, a missing value a missing one; words must be identical. Missing and extra
-// rows and columns are differences, unless the column is ignored. With a tube, see tube.h.
+// rows and columns are differences, unless the column is ignored. With a tube, see compare.h.
 [[nodiscard]] Comparison compare(const record::Table& got, const record::Table& want,
                                  const Tolerances& tolerances);
 
@@ -59,5 +93,25 @@ enum class Show { all, differing };
 // The part of the line after the column's name: what differs, where, and both values.
 [[nodiscard]] std::string verdict_text(const ColumnComparison& column);
 [[nodiscard]] std::string rows_text(const Comparison& comparison);  // the numbers of rows differ
+
+// Whether two cells are identical; NaN equals NaN.
+[[nodiscard]] bool same(const record::Cell& got, const record::Cell& want);
+
+// A difference of `size` divided by the allowed one, both at least 0: above 1 if, and only if, it
+// is beyond the allowed one; infinite beyond an allowed difference of 0.
+[[nodiscard]] double excess(double size, double allowed);
+
+// Compares every value of GOT with the range of WANT within the tube's width of the same x, with
+// linear interpolation between WANT's rows. If both tables have a column `case`, only rows of the
+// same case are compared. Words and non-finite values must be identical to the value of one of the
+// rows in the tube or, if there is none, of one of the two rows around it. The `want` of the worst
+// row is the nearest value in the range. Both tables have the columns; x rises within a case.
+[[nodiscard]] ColumnComparison compare_in_tube(const record::Table& got, const record::Table& want,
+                                               const std::string& name,
+                                               const Tolerances& tolerances);
+
+// Compares the column of x: both must begin and end within the tube's width of each other.
+[[nodiscard]] ColumnComparison compare_ends(const record::Table& got, const record::Table& want,
+                                            const Tube& tube);
 
 }  // namespace palpate::compare

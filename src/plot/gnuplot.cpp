@@ -2,7 +2,9 @@
 #include "plot/gnuplot.h"
 
 #include <unistd.h>
-
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -12,6 +14,7 @@
 #include "base/files.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
+#include "plot/gnuplot_text.h"
 
 namespace palpate::plot {
 namespace {
@@ -122,6 +125,208 @@ void draw(const Sheet& sheet, WholeFolder& folder, std::vector<std::string>& war
   const Drawing drawing = draw(sheet, folder.partial(), options);
   folder.add(drawing.files);
   if (!drawing.warning.empty()) warnings.push_back(drawing.warning);
+}
+
+namespace {
+
+// The colour of a fit: that of its data, darker, so that it is visible on top of them.
+std::string darker(const std::string& colour) {
+  constexpr double share = 0.6;
+  std::string text;
+  for (std::size_t at = 0; at < 6; at += 2)
+    text += hex_text(static_cast<unsigned char>(share * std::stoi(colour.substr(at, 2), {}, 16)));
+  return text;
+}
+
+std::string label(const Series& series) {
+  if (!series.label.empty()) return series.label;
+  return series.scale == 1.0 ? series.case_name
+                             : series.case_name + " × " + number_text(series.scale);
+}
+
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;  // not the later bytes of a letter
+  }));
+}
+
+// Where the legend is and how large it makes the picture.
+struct Legend {
+  std::vector<std::string> labels = {};  // in the order of the series, each once
+  std::size_t lines = 0;
+  std::size_t rows = 0;     // below the plot, where several labels stand side by side
+  bool below = false;       // long labels beside the plot would leave no place for it
+  bool beside_bar = false;  // the bar is beside the plot: short labels stand in rows below
+
+  explicit Legend(const Figure& figure) {
+    std::size_t longest = 0;
+    bool fits = false;
+    for (const Series& series : figure.series) {
+      fits = fits || !series.fits.empty();
+      if (std::find(labels.begin(), labels.end(), label(series)) == labels.end())
+        labels.push_back(label(series));
+      longest = std::max(longest, letters(labels.back()));
+    }
+    if (labels.size() == 1 && !fits) return;
+    lines = labels.size() + (fits ? 1 : 0) + (figure.legend.empty() ? 0 : 1);
+    if (fits) longest = std::max(longest, letters(figure.fit_label));
+    longest = std::max(longest, letters(figure.legend));
+    constexpr std::size_t most_letters_beside = 18;
+    below = longest > most_letters_beside;
+    constexpr std::size_t letters_of_a_row = 90, sample = 8;
+    const std::size_t columns = std::max<std::size_t>(1, letters_of_a_row / (longest + sample));
+    rows = (lines + columns - 1) / columns;
+    beside_bar = figure.bar.has_value();
+  }
+
+  [[nodiscard]] int height() const {
+    constexpr int plot = 500, line = 20;
+    const int text = line * static_cast<int>(lines);
+    if (below) return plot + line * static_cast<int>(rows);
+    return beside_bar ? plot + (lines > 0 ? 60 : 0) : std::max(plot, 120 + text);
+  }
+};
+
+std::string frame(const Figure& figure, const Legend& legend) {
+  std::string text = "set title " + gnuplot_quoted(figure.title) + "\nset xlabel " +
+                     gnuplot_quoted(figure.x_label) + "\nset ylabel " +
+                     gnuplot_quoted(figure.y_label) + "\nset tmargin 2.5\nset samples 500\n";
+  if (legend.lines == 0)
+    text += "unset key\nset rmargin 3\n";
+  else if (legend.below)
+    text += "set key below vertical maxrows " + std::to_string(legend.rows) +
+            " height 1 Left reverse samplen 2.6 spacing 1.25\nset rmargin 3\n";
+  else if (legend.beside_bar)
+    text += "set key below horizontal height 1 Left reverse samplen 2.6 spacing 1.25\n";
+  else
+    text += "set key outside right top Left reverse samplen 2.6 spacing 1.25 width -2\n";
+  if (figure.from_zero && figure.y_axis == Axis::linear) text += "set yrange [*<0:0<*]\n";
+  const auto logarithmic = [&](const std::string& axis, double low, double high) {
+    text += "set " + axis + "range [" + rounded_text(low, 6) + ":" + rounded_text(high, 6) + "]\n" +
+            gnuplot_logarithmic(axis, low, high);
+  };
+  if (figure.x_axis == Axis::logarithmic) logarithmic("x", figure.x_low, figure.x_high);
+  if (figure.y_axis == Axis::logarithmic) logarithmic("y", figure.y_low, figure.y_high);
+  if (figure.bar) {
+    const ColourBar& bar = *figure.bar;
+    text += gnuplot_palette(brightest_line) + "set cbrange [" + number_text(bar.low) + ":" +
+            number_text(bar.high) + "]\nset cblabel " + gnuplot_quoted(bar.label) +
+            " offset 1,0\nset colorbox\n";
+    if (bar.scale == Axis::logarithmic) text += gnuplot_logarithmic("cb", bar.low, bar.high);
+  }
+  return text;
+}
+
+std::string function_name(std::size_t series, std::size_t fit) {
+  return "fit_" + std::to_string(series + 1) + "_" + std::to_string(fit + 1);
+}
+
+std::string functions(const Figure& figure) {
+  std::string text;
+  for (std::size_t i = 0; i < figure.series.size(); ++i)
+    for (std::size_t k = 0; k < figure.series[i].fits.size(); ++k)
+      text += function_name(i, k) + "(x) = " + figure.series[i].fits[k].formula + "\n";
+  return text;
+}
+
+std::string scaled(double scale, const std::string& value) {
+  return scale == 1.0 ? value : number_text(scale) + "*" + value;
+}
+
+// The x of a series' rows; for other rows it is NaN, so that gnuplot skips them.
+std::string x_expression(const Series& series) {
+  const std::string x = gnuplot_column(series.x_column);
+  std::string condition;
+  if (!series.case_name.empty())
+    condition =
+        "strcol(" + gnuplot_quoted(series.column) + ") eq " + gnuplot_quoted(series.case_name);
+  if (series.step) {
+    if (!condition.empty()) condition += " && ";
+    condition += "column('step') == " + std::to_string(*series.step);
+  }
+  return condition.empty() ? "(" + x + ")" : "(" + condition + " ? " + x + " : NaN)";
+}
+
+// How a series is drawn: by its place in the list, or by its shade and its label.
+struct Look {
+  std::string colour;
+  std::size_t marker = 0;
+};
+Look look_of(const Figure& figure, const Legend& legend, std::size_t i) {
+  const Series& series = figure.series[i];
+  if (!figure.bar || !series.shade)
+    return {line_colours[series.colour.value_or(i) % line_colours.size()], i};
+  const ColourBar& bar = *figure.bar;
+  const auto onto = [&](double value) {
+    return bar.scale == Axis::logarithmic ? std::log(value) : value;
+  };
+  const double width = onto(bar.high) - onto(bar.low);
+  const double share = width > 0.0 ? (onto(*series.shade) - onto(bar.low)) / width : 0.5;
+  const auto place = std::find(legend.labels.begin(), legend.labels.end(), label(series));
+  return {palette_colour(brightest_line * share),
+          static_cast<std::size_t>(place - legend.labels.begin())};
+}
+
+std::string point_style(std::size_t marker) {
+  return " pointtype " + std::to_string(gnuplot_markers[marker % gnuplot_markers.size()]) +
+         " pointsize 0.55 pointnumber 14";
+}
+
+std::string data_line(const Figure& figure, const Legend& legend, std::size_t i) {
+  const Series& series = figure.series[i];
+  const Look look = look_of(figure, legend, i);
+  const std::string width = figure.bar ? "1.8" : "3.5";
+  // What was measured is drawn as points, what was computed as a line.
+  if (series.y_column.starts_with("measured_"))
+    return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
+           scaled(series.scale, gnuplot_column(series.y_column)) +
+           ") with points linewidth 1.2 linecolor rgb '#" + look.colour +
+           "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
+  return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
+         scaled(series.scale, gnuplot_column(series.y_column)) + ") with linespoints linewidth " +
+         width + " linecolor rgb '#" + look.colour + "'" + point_style(look.marker) +
+         (figure.bar || legend.lines == 0 ? " notitle" : " title " + gnuplot_quoted(label(series)));
+}
+
+std::string fit_line(const Series& series, const FittedCurve& fit, const std::string& function,
+                     const std::string& colour) {
+  const std::string x = fit.origin == 0.0 ? "x" : "x - (" + number_text(fit.origin) + ")";
+  return "[" + number_text(fit.from) + ":" + number_text(fit.to) + "] " +
+         scaled(series.scale, function + "(" + x + ")") +
+         " with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#" + colour +
+         "' notitle noautoscale";
+}
+
+}  // namespace
+
+std::string gnuplot_script(const Figure& figure) {
+  const Legend legend(figure);
+  std::vector<std::string> lines;
+  if (legend.lines > 0 && !figure.legend.empty())  // without a line of its own
+    lines.push_back("keyentry with lines linecolor rgb '#ffffff' title " +
+                    gnuplot_quoted(figure.legend));
+  for (std::size_t i = 0; i < figure.series.size(); ++i)
+    lines.push_back(data_line(figure, legend, i));
+  if (figure.bar) {
+    for (std::size_t k = 0; k < legend.labels.size() && legend.lines > 0; ++k)
+      lines.push_back("keyentry with linespoints linewidth 1.8 linecolor rgb '#505050'" +
+                      point_style(k) + " title " + gnuplot_quoted(legend.labels[k]));
+    lines.push_back("NaN with lines linecolor palette notitle");  // without it there is no bar
+  }
+  const std::size_t data_lines = lines.size();
+  for (std::size_t i = 0; i < figure.series.size(); ++i)
+    for (std::size_t k = 0; k < figure.series[i].fits.size(); ++k)
+      lines.push_back(fit_line(figure.series[i], figure.series[i].fits[k], function_name(i, k),
+                               darker(look_of(figure, legend, i).colour)));
+  if (lines.size() > data_lines)  // one legend entry for all fits
+    lines.push_back("NaN with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#404040' title " +
+                    gnuplot_quoted(figure.fit_label));
+  const std::string plot = "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
+  return gnuplot_head(figure.name, legend.height()) + frame(figure, legend) + functions(figure) +
+         gnuplot_ticks(plot, std::string(figure.x_axis == Axis::linear ? "x" : "") +
+                                 (figure.y_axis != Axis::linear ? ""
+                                  : figure.from_zero            ? "y0"
+                                                                : "y"));
 }
 
 }  // namespace palpate::plot

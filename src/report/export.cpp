@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
 #include "measured/unit.h"
 #include "record/csv.h"
+#include "report/machine.h"
 
 namespace palpate::report {
 namespace {
@@ -150,6 +152,132 @@ std::string csv_si_text(const ExportCurve& curve) {
     table.rows.push_back(row);
   }
   return record::csv_text(table);
+}
+
+namespace {
+
+// A press in the form of an indenter's data: approach up to the largest force, then retraction.
+struct Press {
+  const ExportColumn* time = nullptr;         // s; null if missing
+  const ExportColumn* indentation = nullptr;  // m
+  const ExportColumn* force = nullptr;        // N
+  const ExportColumn* travel = nullptr;       // m, of the finger; the indentation if missing
+  std::size_t peak = 0;  // row of the largest force, the last row of the approach
+  double speed = 0.0;    // m/s, mean of the approach; NaN without a time or an approach
+};
+
+double largest(const std::vector<double>& values) {
+  double found = -std::numeric_limits<double>::infinity();
+  for (const double value : values) found = std::fmax(found, value);
+  return found;
+}
+
+double smallest(const std::vector<double>& values) {
+  double found = std::numeric_limits<double>::infinity();
+  for (const double value : values) found = std::fmin(found, value);
+  return found;
+}
+
+// `si` in a unit of 1/per SI units, with digits that read back as the same double if there are any.
+std::string scaled_text(double si, double per) {
+  const double value = si * per;
+  double candidate = value;
+  for (const double aside : {0.0, 1.0, -1.0, 2.0, -2.0}) {
+    candidate = value;
+    for (int i = 0; i < std::abs(static_cast<int>(aside)); ++i)
+      candidate = std::nextafter(candidate, aside * std::numeric_limits<double>::infinity());
+    if (candidate / per == si) return number_text(candidate);
+  }
+  return number_text(value);
+}
+
+// Throws InputError with what `format` needs if the curve has no indentation or no force.
+Press press_of(const ExportCurve& curve, std::string_view format) {
+  Press press;
+  press.time = curve.find("time");
+  press.indentation = &wanted(curve, "indentation", format);
+  press.force = &wanted(curve, "force", format);
+  press.travel = curve.find("travel");
+  if (press.travel == nullptr) press.travel = press.indentation;
+  for (std::size_t i = 0; i < press.force->values.size(); ++i)
+    if (press.force->values[i] > press.force->values[press.peak]) press.peak = i;
+  press.speed = std::numeric_limits<double>::quiet_NaN();
+  if (press.time == nullptr || press.peak == 0) return press;
+  const auto& travel = press.travel->values;
+  const auto& time = press.time->values;
+  press.speed = (travel[press.peak] - travel.front()) / (time[press.peak] - time.front());
+  return press;
+}
+
+}  // namespace
+
+// Format: AFM-analysis/afmformats, afm_data.py (_export_tab), fmt_tab.py and meta.py. CR LF,
+// metadata as JSON in comments, column names in the last comment, booleans as in Python.
+std::string afm_tab_text(const ExportCurve& curve) {
+  const Press press = press_of(curve, "afm-tab");
+  const std::size_t rows = press.force->values.size();
+  nlohmann::json metadata;
+  metadata["curve id"] = curve.name;
+  metadata["enum"] = 0;
+  metadata["feedback mode"] = "contact";
+  metadata["imaging mode"] = "force-distance";
+  metadata["instrument"] = "simulated";
+  metadata["point count"] = rows;
+  metadata["session id"] = curve.source;
+  metadata["setpoint"] = largest(press.force->values);
+  metadata["software"] = "palpate";
+  metadata["software version"] = this_build().version;
+  metadata["z range"] = largest(press.travel->values) - smallest(press.travel->values);
+  if (press.time != nullptr)
+    metadata["duration"] = largest(press.time->values) - smallest(press.time->values);
+  if (std::isfinite(press.speed)) metadata["speed approach"] = press.speed;
+
+  const std::string end = "\r\n";
+  std::string text = "# palpate " + this_build().version + end + "#" + end;
+  text += "# BEGIN METADATA" + end;
+  for (const std::string& line :
+       split(metadata.dump(2, ' ', false, nlohmann::json::error_handler_t::replace), '\n'))
+    text += "# " + line + end;
+  text += "# END METADATA" + end + "#" + end + "# force\tsegment\t";
+  text += std::string(press.time != nullptr ? "time\t" : "") + "tip position" + end;
+  for (std::size_t i = 0; i < rows; ++i) {
+    text += number_text(press.force->values[i]) + (i > press.peak ? "\tTrue\t" : "\tFalse\t");
+    if (press.time != nullptr) text += number_text(press.time->values[i]) + "\t";
+    // The tip's height decreases with the indentation; 0 - x avoids a negative zero.
+    text += number_text(0.0 - press.indentation->values[i]) + end;
+  }
+  return text;
+}
+
+// Format: AFM-analysis/afmformats, fmt_chiaro_txt.py. Keys and values separated by tabs, column
+// names, numbers; ISO 8859-1. There is no cantilever: its deflection is 0, its stiffness unknown.
+std::string chiaro_text(const ExportCurve& curve) {
+  const Press press = press_of(curve, "chiaro");
+  if (press.time == nullptr)
+    throw InputError({}, "`chiaro` needs time, indentation and force, and the curve `" +
+                             curve.name +
+                             "` has no `time`; choose another format, such as `--to csv-si`");
+  const std::string end = "\r\n";
+  const std::string micro = "\xB5";
+  const double z_range = largest(press.travel->values) - smallest(press.travel->values);
+  const auto line = [&](const std::string& key, const std::string& value) {
+    return key + "\t" + value + end;
+  };
+  // A simulation has no date and no time; every reader can parse 00:00:00.
+  std::string text = line("Date", "none") + line("Time", "00:00:00");
+  text += line("Device:", "Chiaro") + line("Software version", "palpate " + this_build().version);
+  text += line("Sample", curve.name) + line("k (N/m)", "nan");
+  text += line("Tip radius (um)",
+               curve.tip_radius ? scaled_text(*curve.tip_radius, 1e6) : std::string("nan"));
+  text += line("Max load (" + micro + "N)", scaled_text(largest(press.force->values), 1e6));
+  text += line("Piezo position (nm) (Measured)", scaled_text(z_range, 1e9));
+  text += line("Piezo speed  (" + micro + "m/s)", scaled_text(press.speed, 1e6)) + end;
+  text += "Time (s)\tLoad (uN)\tIndentation (nm)\tCantilever (nm)\tPiezo (nm)" + end;
+  for (std::size_t i = 0; i < press.force->values.size(); ++i)
+    text += number_text(press.time->values[i]) + "\t" + scaled_text(press.force->values[i], 1e6) +
+            "\t" + scaled_text(press.indentation->values[i], 1e9) + "\t0\t" +
+            scaled_text(press.travel->values[i], 1e9) + end;
+  return text;
 }
 
 }  // namespace palpate::report

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "stability/limit_theory.h"
+#include "stability/measure.h"
 #include "stability/sampled_wall.h"
 #include "stability/survey.h"
 

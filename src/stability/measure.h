@@ -1,12 +1,179 @@
 // Measures one limit of the time step and computes it from theory.
 #pragma once
 
-#include "stability/free_motion.h"
-#include "stability/limit_theory.h"
-#include "stability/probed_body.h"
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "integrate/body.h"
+#include "scenario/integrators.h"
+#include "scene/scene.h"
+#include "scene/specimen_shape.h"
 #include "stability/stability.h"
+#include "tissue/viscous.h"
 
 namespace palpate::stability {
+
+// A linearised explicit contact: the force -k (w.u), distributed over the nodes with weights w.
+struct ContactSpring {
+  double stiffness = 0.0;     // N/m
+  integrate::Vector weights;  // w: nodal forces of a unit force; 0 for held degrees of freedom
+};
+
+struct BodyMode {
+  double frequency = 0.0;   // rad/s
+  integrate::Vector shape;  // kg^-1/2: the modal mass is 1
+};
+
+// From M^-1/2 (K + k w w^T) M^-1/2, to a relative residual of 1e-9. The body is linear without
+// branches; `contact` can be null.
+[[nodiscard]] BodyMode highest_mode(const integrate::Body& body, const ContactSpring* contact);
+
+// From M^1/2 K^-1 M^1/2, to a relative residual of 1e-9. Throws std::domain_error if the body is
+// not held and can move without energy.
+[[nodiscard]] BodyMode lowest_mode(const integrate::Body& body);
+
+// Pseudo-random numbers in [-1/2, 1/2), the same on every machine; 0 for held degrees of freedom.
+[[nodiscard]] integrate::Vector scattered(const integrate::Body& body);
+
+// Central differences whose damping force uses the velocity of the previous step; otherwise the
+// same as integrate::CentralDifference.                  `lagged` in docs/theory.md [semi_implicit]
+class LaggedDifference {
+ public:
+  LaggedDifference(const integrate::Body& body, double time_step)
+      : body_(&body), time_step_(time_step) {}
+
+  // M (u(t + dt) - 2 u(t) + u(t - dt)) / dt^2 + D (u(t) - u(t - dt)) / dt + f(u) = F
+  void step(integrate::State& state, const integrate::Vector& load);
+
+ private:
+  const integrate::Body* body_;
+  double time_step_;
+  integrate::Vector damping_;
+  integrate::Vector dashpots_;
+};
+
+struct FreeMotion {
+  const scene::Scene* scene = nullptr;      // its scenario names the integrator
+  const scene::SpringBody* body = nullptr;  // the scene's specimen with another viscous law
+  bool lagged = false;                      // LaggedDifference instead of the integrator
+  bool centred = true;  // the damping force uses the mean velocity of two successive steps
+  BodyMode mode;        // shape of the stroke; an irregular part of 0.3 of its size is added
+  const ContactSpring* contact = nullptr;
+  int steps = 400;
+  // The motion counts as growing if the largest energy of its last quarter exceeds that of its
+  // second quarter by more than this factor. Undamped modes beat, so that 1 would be too small.
+  double growth = 2.0;
+};
+
+enum class Ending {
+  bounded,
+  grows,        // energy grows without input
+  not_finite,   // a number is infinite or NaN
+  cannot_step,  // the method's equations have no solution
+};
+
+struct Moved {
+  Ending ending = Ending::bounded;
+  int steps = 0;        // carried out
+  double before = 0.0;  // J, largest energy of the second quarter
+  double after = 0.0;   // J, of the last quarter; if the motion was stopped, of the last step
+};
+
+// Computes the motion with this time step, s. Stops if the energy is `enough` times the first.
+[[nodiscard]] Moved move(const FreeMotion& motion, double time_step, double enough = 1e12);
+
+// Sets `steps` and `growth` so that a time step 0.25 % above the limit is seen to be unstable.
+void choose_length(FreeMotion& motion, double damping_ratio);
+
+// The limit between stable and unstable time steps, s, with the relative error `resolution`: from
+// `start` by doubling or halving, then by bisection. Nothing if every step up to
+// `most` is stable; 0 if no step down to 1e-9 of `start` is.
+[[nodiscard]] std::optional<double> bisect_limit(const std::function<bool(double)>& stable,
+                                                 double start, double most, double resolution);
+
+struct ProbedBody {
+  scene::Scene scene;
+  std::unique_ptr<scene::SpringBody> elastic;
+  BodyMode highest;
+
+  [[nodiscard]] int nodes() const { return scene.specimen->network.nodes(); }
+};
+
+// The case with this model and volume term, linear kinematics, the whole body, and no viscosity.
+[[nodiscard]] scenario::Case bare(scenario::Case one, scenario::Model model, tissue::Volume volume);
+
+// Builds the scene and its highest mode; `shapes` keeps the mesh. Throws like scene::build().
+[[nodiscard]] std::unique_ptr<ProbedBody> make_probed_body(const scenario::Case& one,
+                                                           const scenario::Family& family,
+                                                           scene::SpecimenShapes& shapes);
+
+// The scenario's model and volume term, or the model's default term. Coupled springs if the
+// scenario names no model or one without a mesh.
+struct RungOf {
+  scenario::Solver::Model model;
+  scenario::Solver::Volume volume;
+  bool operator==(const RungOf&) const = default;
+};
+[[nodiscard]] RungOf rung_of(const scenario::Scenario& scenario);
+
+// A form of damping with the values of the scenario, else of its material, else assumed values.
+struct Damping {
+  tissue::ViscousLaw law;
+  bool assumed = false;  // whether a value is assumed
+};
+[[nodiscard]] Damping damping_of(const scenario::Case& one, tissue::Viscosity form);
+
+// The contact at the deepest travel of the loading history as a spring on the mesh, with the force
+// distributed over the nodes by the Hertz pressure; nothing for uniform tests.
+[[nodiscard]] std::optional<ContactSpring> contact_spring(const ProbedBody& probed);
+
+using Integrator = scenario::Solver::Integrator;
+
+// A time integration method: an integrator of scenarios, or central differences whose damping force
+// `lags`, that is, uses the velocity of the previous step, (u(t) - u(t - dt)) / dt.
+struct Method {
+  Integrator integrator = Integrator::central_difference;
+  bool lags = false;
+
+  bool operator==(const Method&) const = default;
+  [[nodiscard]] bool explicit_steps() const { return about(integrator).explicit_steps; }
+  [[nodiscard]] std::string name() const {
+    return lags ? "lagged_velocity" : about(integrator).word;
+  }
+};
+inline constexpr Method lagged{.lags = true};
+
+// Every method: the integrators in the order of their words, then `lagged`.
+[[nodiscard]] std::vector<Method> methods();
+
+// The limit of the time step, s, for a body with the highest `frequency` omega (1/s). With
+// C = drag + tau omega^2 (1/s) and zeta = C / (2 omega):
+//   central_difference   dt omega = 2
+//   lagged_velocity      dt omega = 2 (sqrt(1 + zeta^2) - zeta);
+//                        with Kelvin-Voigt dt = -tau + sqrt(tau^2 + 4 / omega^2)
+//   semi_implicit_euler  dt omega = 2 (sqrt(1 + zeta^2) + zeta)
+// each from the root -1 of the characteristic polynomial. A Maxwell branch contributes the fraction
+// (2 / x) tanh(x / 2) of its stiffness, x = dt / time, as its memory is exact for linear courses:
+//   dt^2 omega^2 (1 + sum of ratio (2 / x) tanh(x / 2)) + ... = 4 + ...
+// The limit thus lies between those of the unrelaxed and of the relaxed tissue.
+// Nothing for methods without a limit.              docs/theory.md [explicit_limit], [branch_limit]
+[[nodiscard]] std::optional<double> limit_theory(const Method& method, double frequency,
+                                                 const tissue::ViscousLaw& law);
+
+// The damping ratio of a mode of `frequency` (1/s) by nodal drag and Kelvin-Voigt dashpots.
+[[nodiscard]] double damping_ratio(double frequency, const tissue::ViscousLaw& law);
+
+// |A|, the factor by which one step changes the amplitude of an undamped mode, x = omega dt: 1 for
+// methods that only shift its phase, 1 / sqrt(1 + x^2) for implicit Euler, |R(i x)| for TR-BDF2.
+// Nothing for methods without inertia and beyond a limit.                  docs/theory.md [tr_bdf2]
+[[nodiscard]] std::optional<double> amplification(Integrator integrator, double omega_step);
+
+// The factor by which one step of central differences beyond the limit, x = omega dt > 2, increases
+// the amplitude of an undamped mode: the larger root of s^2 - (x^2 - 2) s + 1.
+[[nodiscard]] double growth_beyond(double omega_step);
 
 struct Measured {
   std::optional<double> limit;      // s; nothing: none was found

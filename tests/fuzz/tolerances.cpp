@@ -1,5 +1,5 @@
 // Any text as tolerances of a comparison: what is read can be used.
-#include "compare/tolerances.h"
+#include "compare/compare.h"
 #include "fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,7 +3,7 @@
 
 #include "base/document.h"
 #include "base/text.h"
-#include "compare/tolerances.h"
+#include "compare/compare.h"
 #include "program.h"
 #include "record/csv.h"
 

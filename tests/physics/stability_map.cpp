@@ -6,9 +6,7 @@
 
 #include "base/error.h"
 #include "base/stop_scope.h"
-#include "stability/free_motion.h"
-#include "stability/limit_theory.h"
-#include "stability/probed_body.h"
+#include "stability/measure.h"
 #include "stability/stability.h"
 #include "stability/survey.h"
 

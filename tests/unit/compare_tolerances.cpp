@@ -1,5 +1,5 @@
 // Tolerance files: what a column inherits, and every message with its place.
-#include "compare/tolerances.h"
+#include "compare/compare.h"
 
 #include <gtest/gtest.h>
 

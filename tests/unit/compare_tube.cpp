@@ -1,5 +1,5 @@
 // Comparison in a tube: times may be shifted, values may not.
-#include "compare/tube.h"
+#include "compare/compare.h"
 
 #include <gtest/gtest.h>
 

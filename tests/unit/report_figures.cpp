@@ -1,5 +1,5 @@
 // Scripts and the pictures that come of them.
-#include "report/figures.h"
+#include "report/family_figures.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "cases.h"
-#include "stability/limit_theory.h"
+#include "stability/measure.h"
 
 namespace palpate::stability {
 namespace {

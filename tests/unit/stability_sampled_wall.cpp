@@ -6,7 +6,7 @@
 
 #include "cases.h"
 #include "contact/hertz.h"
-#include "stability/free_motion.h"
+#include "stability/measure.h"
 #include "stability/sampled_wall.h"
 
 namespace palpate::stability {
