@@ -317,13 +317,9 @@ std::vector<double> each(const Measurement& one, const Of& of) {
 }  // namespace
 
 const char* status_word(Status status) {
-  switch (status) {
-    case Status::measured: return "measured";
-    case Status::diverged: return "diverged";
-    case Status::cannot: return "cannot";
-    case Status::not_run: break;
-  }
-  return "not_run";
+  constexpr auto words =
+      words_of<Status>({{"measured", ""}, {"diverged", ""}, {"cannot", ""}, {"not_run", ""}});
+  return word(words, status);
 }
 
 std::vector<double> Measurement::costs() const {

@@ -7,9 +7,12 @@
 #include <set>
 
 #include "base/field_writer.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "run/choose.h"
 #include "run/refined_mesh.h"
+#include "scenario/find.h"
+#include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"
 #include "scene/estimates.h"
@@ -25,6 +28,22 @@ using Integrator = scenario::Solver::Integrator;
 using Settings = std::vector<std::string>;
 using scenario::Scenario;
 namespace words = scenario::words;
+
+constexpr std::size_t most_cases = 8;
+
+// The keys that a chart varies.
+constexpr const char* own_keys[] = {"solver.model",    "solver.integrator", "solver.time_step",
+                                    "solver.substeps", "solver.rings",      "contact.coupling",
+                                    "tissue.mesh",     "output.interval"};
+
+void refuse_own_keys(const scenario::Family& family) {
+  for (const scenario::Setting& swept : family.design.settings(0))
+    for (const char* own : own_keys)
+      if (swept.key == own || swept.key.starts_with(std::string(own) + "."))
+        throw InputError(swept.value.place,
+                         "`" + swept.key + "` is swept, and `palpate chart` varies `" + own +
+                             "` itself; set it to one value, with `[sweep]` without it");
+}
 
 constexpr double mesh_factors[] = {0.25, 4.0};        // times the scenario's number of nodes
 constexpr double time_steps_ms[] = {0.25, 1.0, 4.0};  // a haptic frame is 1 ms
@@ -47,14 +66,14 @@ std::array<int, 3> scaled(std::array<int, 3> cells, double factor) {
   return cells;
 }
 
-// The setting for cells that are small enough for `resolved` under the finger and grow with the
-// distance from it; empty unless one sphere presses a cuboid of one tissue without a ready mesh.
-std::string graded(const Scenario& scenario, const scene::Estimates& found) {
+// The setting for cells of which `smallest` lie in a contact radius (m) under the finger, and which
+// grow with the distance from it; empty unless one sphere presses a cuboid of one tissue without a
+// ready mesh.
+std::string graded_mesh_setting(const Scenario& scenario, double radius, double smallest) {
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
   if (box == nullptr || !scenario.regions.empty() || scenario.finger.spheres != 1 ||
       std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh))
     return "";
-  const double radius = found.contact_radius;
   const double place[] = {scenario.finger.x.value_or(0.5 * box->size[0]),
                           scenario.finger.y.value_or(0.5 * box->size[1]), box->size[2]};
   std::array<int, 3> cells{};
@@ -65,7 +84,7 @@ std::string graded(const Scenario& scenario, const scene::Estimates& found) {
       units += std::asinh(length / radius);
       farthest = std::max(farthest, length);
     }
-    cells[axis] = static_cast<int>(std::ceil(units * cells_a_contact_radius));
+    cells[axis] = static_cast<int>(std::ceil(units * smallest));
   }
   const double grading = std::sqrt(1.0 + farthest * farthest / (radius * radius));
   return text_of_cells("mirrored", cells, std::round(10.0 * grading) / 10.0);
@@ -181,7 +200,8 @@ class Designer {
     for (const Coupling coupling :
          {Coupling::one_way, Coupling::series, Coupling::consistent, Coupling::resolved})
       add("rung x coupling", word_of(model) + ", " + word_of(coupling), coupled(coupling));
-    const std::string mesh = graded(base_, run::choose(one_).expected);
+    const std::string mesh = graded_mesh_setting(base_, run::choose(one_).expected.contact_radius,
+                                                 cells_a_contact_radius);
     if (!mesh.empty())
       add("rung x coupling", word_of(model) + ", resolved on graded cells",
           joined_to(coupled(Coupling::resolved), {mesh}));
@@ -255,6 +275,99 @@ class Designer {
 };
 
 }  // namespace
+
+Settings left_open(const scenario::Scenario& scenario) {
+  const scenario::Solver& solver = scenario.solver;
+  Settings open;
+  if (solver.model) open.emplace_back("solver.model=auto");
+  if (solver.integrator) open.emplace_back("solver.integrator=auto");
+  if (solver.time_step) open.emplace_back("solver.time_step=auto");
+  if (solver.substeps) open.emplace_back("solver.substeps=auto");
+  if (solver.rings) open.emplace_back("solver.rings=all");
+  const scenario::Mesh& mesh = scenario.tissue.mesh;
+  if (!std::holds_alternative<scenario::MeshFile>(mesh) &&
+      !std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape) &&
+      !refinement(mesh).refine)
+    open.push_back(std::string("tissue.mesh={kind='") +
+                   std::visit([](const auto& kind) { return kind.word.word; },
+                              scenario::mesh_left_open(scenario)) +
+                   "',refine=true}");
+  if (!scenario.uniform() && scenario.contact.coupling != contact::Coupling::consistent) {
+    open.emplace_back("contact.coupling=consistent");
+    // Only `consistent` takes the viscosity of the tissue into the contact by default.
+    if (scenario.contact.viscosity == scenario::Contact::Viscosity::none)
+      open.emplace_back("contact.viscosity=none");
+  }
+  return open;
+}
+
+scenario::Case opened(const Asked& asked, std::size_t of_case) {
+  Settings all = asked.settings;
+  for (const std::string& one : left_open(asked.family.cases[of_case].scenario)) all.push_back(one);
+  return scenario::parse_case(asked.text, asked.path, all, of_case).cases.front();
+}
+
+void refuse_forces(const scenario::Family& family, const std::string& sentence) {
+  const std::vector<scenario::Step>& steps = family.base.steps;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (const auto* indent = std::get_if<scenario::Indent>(&steps[i]);
+        indent != nullptr && indent->to.second)
+      throw InputError(place_of(family.document, "step." + std::to_string(i + 1) + ".to"),
+                       sentence);
+}
+
+namespace {
+
+Asked parsed(const std::string& path, const std::string& text, const Settings& settings) {
+  Asked asked{path, text, settings, scenario::parse(text, path, settings)};
+  for (std::size_t i = 0; i < asked.family.cases.size(); ++i) {
+    const scene::Choice choice = run::choose(asked.family.cases[i]);
+    // The reference of a press with inertia is linear elasticity on a mesh.
+    const bool still = !choice.chosen.meshed() || !about(choice.chosen.solver.integrator).inertia;
+    asked.depths.push_back(still ? run::choose(opened(asked, i)).chosen.contact.depth
+                                 : scenario::Contact::Depth::hertz);
+  }
+  return asked;
+}
+
+}  // namespace
+
+Asked read_asked(const std::string& path, const Settings& settings) {
+  const std::string found = scenario::find(path);
+  return parsed(found, read_text(found), settings);
+}
+
+Asked read_for_chart(const std::string& path, const Settings& settings) {
+  const std::string found = scenario::find(path);
+  return read_for_chart(found, read_text(found), settings);
+}
+
+Asked read_for_chart(const std::string& path, const std::string& text, const Settings& settings) {
+  const scenario::Family family = scenario::parse(text, path, settings);
+  if (family.cases.size() > most_cases)
+    throw InputError(place_of(family.document, "sweep"),
+                     "`palpate chart` measures up to " + std::to_string(most_cases) +
+                         " cases, and `sweep` makes " + std::to_string(family.cases.size()) +
+                         "; give shorter lists");
+  refuse_own_keys(family);
+  refuse_forces(family,
+                "a step to a force ends elsewhere in every variant, and `palpate chart` compares "
+                "forces at equal travels; give a travel");
+  return parsed(path, text, settings);
+}
+
+scenario::Family with_settings(const Asked& asked, std::size_t of_case, const Settings& settings) {
+  Settings all = asked.settings;
+  all.insert(all.end(), settings.begin(), settings.end());
+  scenario::Family family = scenario::parse_case(asked.text, asked.path, all, of_case);
+  family.cases.front().name = asked.family.cases[of_case].name;
+  scenario::Scenario& scenario = family.cases.front().scenario;
+  scenario::Contact& contact = scenario.contact;
+  const bool as_it_stands = settings.empty() && scenario.solver.model;
+  if (!as_it_stands && !contact.depth && !contact::mesh_is_tissue(contact.coupling))
+    contact.depth = asked.depths[of_case];
+  return family;
+}
 
 std::string model_setting(Model model) { return "solver.model=" + word_of(model); }
 std::string word_of(Model model) { return scenario::rung(model).word; }

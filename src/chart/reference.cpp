@@ -1,4 +1,4 @@
-// Refines a scenario, runs the levels, and extrapolates row by row.
+// Presses a scenario at rest with `solid`, and in motion with coupled springs, on several meshes.
 #include "chart/reference.h"
 
 #include <algorithm>
@@ -10,8 +10,7 @@
 #include "base/stop_scope.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "chart/design.h"
-#include "chart/extrapolation.h"
+#include "chart/truth.h"
 #include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
@@ -27,10 +26,10 @@ using Coupling = contact::Coupling;
 using Integrator = scenario::Solver::Integrator;
 using scenario::Scenario;
 
+constexpr int levels = 3;
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
 constexpr double tolerance_of_solid = 0.005;  // asks for all of its meshes
-constexpr double most_rows = 40.0;            // of a loading history without memory
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
 enum class Part { whole, half, quarter };
@@ -58,6 +57,76 @@ Part part_of(const Scenario& scenario, const scenario::Cuboid& box) {
   throw InputError(place_of(family.document, key), sentence);
 }
 
+void refuse_unless_refined(const scenario::Family& family, const Scenario& scenario) {
+  if (scenario.uniform())
+    refuse_at(family, "step",
+              "`palpate reference` refines a press; uniform tests have closed forms");
+  if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
+    refuse_at(family, "tissue.shape",
+              "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");
+}
+
+void refuse_slides_at_a_force(const scenario::Family& family, const Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
+    if (const auto* slide = std::get_if<scenario::Slide>(&scenario.steps[i]);
+        slide != nullptr && slide->keep == scenario::Slide::Keep::force)
+      refuse_at(family, "step." + std::to_string(i + 1) + ".keep",
+                "the reference slides at a depth; write `keep = \"travel\"`");
+}
+
+// What inertia adds to the force, with its error, at the moments of the rows; nothing where coupled
+// springs cannot be refined, or end elsewhere than the reference.
+std::optional<History> added_by_inertia(const Asked& asked, std::size_t of_case, bool flows,
+                                        double interval, const std::vector<ReferenceRow>& rows) {
+  const Scenario& scenario = asked.family.cases[of_case].scenario;
+  if (flows || rows.empty() || rows.back().slide != 0.0) return std::nullopt;
+  if (mesh_setting(scenario, 1.0).empty()) return std::nullopt;
+  const auto run = [&](double factor, const char* integrator) {
+    return run_with(asked, of_case,
+                    {model_setting(scenario::strongest.of), "contact.coupling=consistent",
+                     "tissue.viscosity=none", std::string("solver.integrator=") + integrator,
+                     "output.interval=" + number_text(1e3 * interval) + " ms",
+                     mesh_setting(scenario, factor)})
+        .moments;
+  };
+  const auto on = [&](double factor) {
+    History added = run(factor, "modal");
+    const History still = run(factor, "quasi_static");
+    for (std::size_t i = 0; i < std::min(added.size(), still.size()); ++i)
+      added[i].value -= still[i].value;
+    return added;
+  };
+  set_doing("effect of inertia");
+  try {
+    const History own = on(1.0);
+    History finer = on(4.0);
+    if (own.size() != rows.size() || finer.size() != rows.size()) return std::nullopt;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      finer[i].error = std::abs(finer[i].value - own[i].value);
+    return finer;
+  } catch (const InputError&) {
+  } catch (const MeshError&) {
+  }
+  return std::nullopt;
+}
+
+// Adds the effect of inertia, or its estimate to the error; says which.
+std::string add_inertia(const std::optional<History>& added, double estimated,
+                        std::vector<ReferenceRow>& rows) {
+  double most = 0.0;
+  double peak = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double still = rows[i].force;
+    peak = std::max(peak, std::abs(still));
+    rows[i].error += added ? (*added)[i].error : estimated * std::abs(still);
+    if (!added) continue;
+    rows[i].force += (*added)[i].value;
+    most = std::max(most, std::abs((*added)[i].value));
+  }
+  if (!added) return "without inertia, whose estimated effect is " + percent_text(estimated);
+  return "and what inertia adds to coupled springs, " + percent_text(peak > 0.0 ? most / peak : 0);
+}
+
 // A press that moves, on meshes of coupled springs.
 class Refinement {
  public:
@@ -67,8 +136,7 @@ class Refinement {
       refuse_at(family, "tissue.mesh",
                 "a ready mesh is not refined where inertia matters; give the shape, and let "
                 "`palpate` mesh it");
-    refuse_forces(family, case_.scenario.steps,
-                  "a step to a force ends elsewhere on every mesh; give a travel");
+    refuse_forces(family, "a step to a force ends elsewhere on every mesh; give a travel");
     const auto* box = std::get_if<scenario::Cuboid>(&case_.scenario.tissue.shape);
     resolved_ =
         box != nullptr && case_.scenario.regions.empty() && case_.scenario.finger.spheres == 1;
@@ -231,69 +299,10 @@ void remark(const Refinement& refinement, Reference& reference) {
       " (column sphere_over_skin; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");
 }
 
-// A press without inertia: `solid` on all of its meshes.
-Reference at_rest(scenario::Case one, const scenario::Family& family) {
-  Scenario& scenario = one.scenario;
-  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
-    if (const auto* slide = std::get_if<scenario::Slide>(&scenario.steps[i]);
-        slide != nullptr && slide->keep == scenario::Slide::Keep::force)
-      refuse_at(family, "step." + std::to_string(i + 1) + ".keep",
-                "the reference slides at a depth; write `keep = \"travel\"`");
-  const bool flows = scenario::viscous_contact(scenario);
-  const bool one_for_all =
-      scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::force;
-  if (one_for_all) scenario.finger.spheres = 1;
-  scenario.solver = {};
-  scenario.solver.model = scenario::Model::solid;
-  scenario.solver.tolerance = tolerance_of_solid;
-  scenario.contact.coupling = Coupling::consistent;
-  scenario.contact.depth.reset();
-  if (!flows) {
-    scenario.contact.viscosity = scenario::Contact::Viscosity::none;
-    // The rows of an elastic press do not depend on the rows between them.
-    const double total = scenario::programme_time(scenario);
-    double& interval = scenario.output.interval;
-    interval *= std::max(1.0, std::ceil(total / (most_rows * interval)));
-  }
-  scenario.output.keep_rows_only();
-  set_doing("the solid on three meshes");
-  const scene::Scene scene = run::build_scene(one, family);
-  const record::CaseRecord record = run::run_case(scene);
-  Reference reference;
-  if (record.outcome != record::Outcome::completed) reference.diverged = record.reason;
-  for (const record::ContactRow& row : record.contact)
-    reference.rows.push_back({.step = row.step,
-                              .time = row.time,
-                              .travel = row.travel,
-                              .slide = row.slide,
-                              .force = row.contact_force,
-                              .error = row.mesh_error * row.contact_force});
-  reference.remarks.push_back(
-      std::string("`solid` on three meshes, extrapolated, without inertia; ") +
-      (flows ? "viscosity by the contact's law of time" : "the force of the relaxed tissue"));
-  if (one_for_all)
-    reference.remarks.emplace_back(
-        "spheres by `calibration = \"force\"` stand for one, which is pressed");
-  remark_on_error(reference);
-  return reference;
-}
-
-}  // namespace
-
-Reference refer(const scenario::Case& one, const scenario::Family& family, int levels) {
+// A press that moves.
+Reference in_motion(const scenario::Case& one, const scenario::Family& family,
+                    const scene::Choice& choice) {
   using Direction = scenario::Contact::Direction;
-  if (one.scenario.uniform())
-    refuse_at(family, "step",
-              "`palpate reference` refines a press; uniform tests have closed forms");
-  if (std::holds_alternative<scenario::HalfSpace>(one.scenario.tissue.shape))
-    refuse_at(family, "tissue.shape",
-              "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");
-  const scene::Choice choice = run::choose(one);
-  const scenario::Solver& solver = one.scenario.solver;
-  const bool moves = solver.integrator ? about(*solver.integrator).inertia
-                                       : choice.expected.inertia >= solver.tolerance;
-  if (!moves) return at_rest(one, family);
-
   Refinement refinement(one, family, choice);
   Reference reference;
   reference.moves = true;
@@ -338,6 +347,80 @@ Reference refer(const scenario::Case& one, const scenario::Family& family, int l
     }
   }
   remark(refinement, reference);
+  return reference;
+}
+
+}  // namespace
+
+Ran run_with(const Asked& asked, std::size_t of_case, const std::vector<std::string>& settings) {
+  const auto family = with_settings(asked, of_case, settings);
+  scene::Scene scene = run::build_scene(family.cases.front(), family);
+  scene.scenario.output.keep_rows_only();
+  const record::CaseRecord record = run::run_case(scene);
+  StopScope::end_if_stopped();
+  if (record.outcome == record::Outcome::diverged)
+    throw MeshError("the reference of case " + family.cases.front().name +
+                    " diverged: " + record.reason);
+  return {history(scene.scenario, record), scene.specimen ? scene.specimen->network.nodes() : 0};
+}
+
+Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
+  refuse_unless_refined(asked.family, asked.family.cases[of_case].scenario);
+  // `consistent` decides whether the force is viscous, because with other couplings the viscosity
+  // belongs to the mesh.
+  const auto family = with_settings(asked, of_case, {"contact.coupling=consistent"});
+  scenario::Case one = family.cases.front();
+  Scenario& scenario = one.scenario;
+  const scene::Choice choice = run::choose(one);
+  const double inertia = choice.expected.inertia;
+  const double tolerance = scenario.solver.tolerance;
+  const bool flows = scenario::viscous_contact(scenario);
+  const bool moves = scenario.solver.integrator ? about(*scenario.solver.integrator).inertia
+                                                : inertia >= tolerance;
+  double& interval = scenario.output.interval;
+  // The rows of an elastic press at rest do not depend on the rows between them.
+  const double rows = flows || moves ? most.in_time : most.still;
+  interval *= std::max(1.0, std::ceil(scenario::programme_time(scenario) / (rows * interval)));
+  scenario.contact.direction = asked.family.cases[of_case].scenario.contact.direction;
+  if (moves) return in_motion(one, family, choice);
+  refuse_slides_at_a_force(family, scenario);
+  const bool one_for_all =
+      scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::force;
+  if (one_for_all) scenario.finger.spheres = 1;
+  scenario.solver = {};
+  scenario.solver.model = scenario::Model::solid;
+  scenario.solver.tolerance = tolerance_of_solid;
+  scenario.contact.depth.reset();
+  if (!flows) scenario.contact.viscosity = scenario::Contact::Viscosity::none;
+  scenario.output.keep_rows_only();
+  set_doing("the solid on three meshes");
+  const scene::Scene scene = run::build_scene(one, family);
+  const record::CaseRecord record = run::run_case(scene);
+  Reference reference;
+  if (record.outcome != record::Outcome::completed) {
+    reference.diverged = record.reason;
+    return reference;
+  }
+  for (const record::ContactRow& row : record.contact)
+    reference.rows.push_back({.step = row.step,
+                              .time = row.time,
+                              .travel = row.travel,
+                              .slide = row.slide,
+                              .force = row.contact_force,
+                              .error = row.mesh_error * row.contact_force});
+  reference.how =
+      flows ? "viscosity by the contact's law of time" : "the force of the relaxed tissue";
+  if (inertia > 0.1 * tolerance)
+    reference.how +=
+        ", " + add_inertia(added_by_inertia(asked, of_case, flows, interval, reference.rows),
+                           inertia, reference.rows);
+  else
+    reference.how += ", without inertia, whose estimated effect is " + percent_text(inertia);
+  reference.remarks.push_back("`solid` on three meshes, extrapolated; " + reference.how);
+  if (one_for_all)
+    reference.remarks.emplace_back(
+        "spheres by `calibration = \"force\"` stand for one, which is pressed");
+  remark_on_error(reference);
   return reference;
 }
 

@@ -1,13 +1,35 @@
 // A chart as a table and as sentences.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "chart/chart.h"
+#include "plot/gnuplot.h"
 #include "record/table.h"
 
 namespace palpate::chart {
+
+// One choice. It is left out unless both numbers are positive and finite.
+struct Tradeoff {
+  double cost = 0.0;
+  double error = 0.0;
+};
+
+// The indices of the choices for which no other choice is both cheaper and at least as accurate, or
+// more accurate and at most as expensive; by rising cost, hence falling error. First of equals.
+[[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const Tradeoff> all);
+
+// The index (0: the cheapest) of the choice of `front`, by rising cost, that lies farthest below
+// the chord between its first and last choice, in logarithms of cost and error. Before the knee a
+// little cost buys much accuracy, after it much cost buys little. The result does not depend on
+// units, because scaling the axes keeps the order of the distances from a chord. Nothing if the
+// front has fewer than three choices or none below the chord. docs/theory.md [knee]
+[[nodiscard]] std::optional<std::size_t> knee(std::span<const Tradeoff> front);
 
 // The smallest error that is ever claimed: linear interpolation between rows may add as much.
 inline constexpr double comparison_error = 1e-4;
@@ -39,5 +61,26 @@ struct Verdict {
 
 // `--set "key=value" ...`, quoted for a shell; `as the scenario stands` for none.
 [[nodiscard]] std::string set_line(const std::vector<std::string>& settings);
+
+struct Scatter {
+  std::string name = {};  // of the files, without extension
+  std::string title = {};
+  std::string csv_file = {};                  // relative to the folder; columns as in docs/speed.md
+  std::string case_name = {};                 // the case whose rows are drawn
+  std::vector<std::string> models = {};       // of the rows
+  std::vector<std::string> integrators = {};  // of the rows; "" for models without a mesh
+  // Pairs of model and integrator that have rows; gnuplot warns of a series without points.
+  std::vector<std::pair<std::string, std::string>> series = {};
+  std::vector<std::string> marks = {};         // `knee` and `auto`, if a row has the mark
+  double floor = 0.0;                          // error of the reference, relative
+  double tolerance = 0.0;                      // relative
+  double least_cost = 1.0, most_cost = 1.0;    // us per simulated ms, of the rows
+  double least_error = 1.0, most_error = 1.0;  // relative, of the rows
+};
+
+// The gnuplot script, log-log: cost in us per simulated ms against error in percent, with the
+// spread of the timings, the Pareto front, its knee, the choice of `auto`, real time, the
+// tolerance, and the error of the reference. One colour per model, one marker per integrator.
+[[nodiscard]] plot::Sheet scatter_sheet(const Scatter& scatter);
 
 }  // namespace palpate::chart

@@ -2,13 +2,15 @@
 #include "chart/truth.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "base/doing.h"
 #include "base/error.h"
+#include "base/numerics.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
-#include "chart/extrapolation.h"
 #include "chart/reference.h"
 #include "contact/relaxation.h"
 #include "run/choose.h"
@@ -19,6 +21,53 @@
 #include "scene/specimen_mesh.h"
 
 namespace palpate::chart {
+namespace {
+
+constexpr double least_order = 0.5;
+constexpr double most_order = 3.0;
+
+// (h1^p - h2^p) / (h2^p - h3^p), which grows with p.
+double ratio_of_changes(std::span<const double> h, double p) {
+  return (std::pow(h[0] / h[1], p) - 1.0) / (1.0 - std::pow(h[2] / h[1], p));
+}
+
+// The p with this ratio of changes, not below `least_order`.
+double observed_order(std::span<const double> h, double ratio) {
+  return numerics::root({least_order, most_order},
+                        [&](double p) { return ratio_of_changes(h, p) - ratio; })
+      .middle();
+}
+
+}  // namespace
+
+Extrapolated extrapolate(std::span<const double> spacings, std::span<const double> values) {
+  assert(spacings.size() == values.size() && !values.empty());
+  const double finest = values.back();
+  if (values.size() == 1) return {finest, std::numeric_limits<double>::infinity(), 0.0};
+  const std::size_t count = std::min<std::size_t>(3, values.size());
+  const auto h = spacings.last(count);
+  const auto f = values.last(count);
+  const double last_change = f[count - 1] - f[count - 2];
+  Extrapolated result{.value = finest, .order = 1.0};
+  if (count == 3) {
+    const double change = f[1] - f[0];
+    if (last_change == 0.0 && change == 0.0) return {finest, 0.0, 0.0};
+    const bool settles =
+        change * last_change > 0.0 && change / last_change <= ratio_of_changes(h, most_order);
+    if (!settles) {
+      const auto [low, high] = std::minmax({f[0], f[1], f[2]});
+      return {finest, high - low, 0.0};
+    }
+    result.order = observed_order(h, change / last_change);
+  }
+  // value + C h^p: (remaining change) / (last change) = 1 / ((h_2 / h_3)^p - 1)
+  const double rest = last_change / (std::pow(h[count - 2] / h[count - 1], result.order) - 1.0);
+  result.value += rest;
+  result.error = std::max(std::abs(rest), 0.5 * std::abs(last_change));
+  if (count == 2) result.error *= 2.0;
+  return result;
+}
+
 namespace {
 
 using Settings = std::vector<std::string>;
@@ -53,17 +102,10 @@ class Finder {
   }
 
  private:
-  // Runs the case with further settings.
   [[nodiscard]] History run(const Settings& settings) const {
-    const auto family = with_settings(asked_, case_, settings);
-    scene::Scene scene = run::build_scene(family.cases.front(), family);
-    nodes_ = scene.specimen ? scene.specimen->network.nodes() : 0;
-    scene.scenario.output.keep_rows_only();
-    const record::CaseRecord record = run::run_case(scene);
-    StopScope::end_if_stopped();
-    if (record.outcome == record::Outcome::diverged)
-      throw MeshError("the reference of case " + one_.name + " diverged: " + record.reason);
-    return history(scenario_, record);
+    Ran ran = run_with(asked_, case_, settings);
+    nodes_ = ran.nodes;
+    return std::move(ran.moments);
   }
 
   Truth vouched(const char* kind, const std::string& sentence, const Settings& settings,
@@ -114,45 +156,22 @@ class Finder {
   }
 
   Truth refined(const scene::Estimates& found) const {
-    // If the scenario's contact law is elastic, the mesh must be elastic too. This is decided with
-    // `consistent`, because with `resolved` the viscosity belongs to the mesh.
-    auto family = with_settings(asked_, case_, {"contact.coupling=consistent"});
-    scenario::Scenario& scenario = family.cases.front().scenario;
-    const bool flows = scenario::viscous_contact(scenario);
-    if (!flows) scenario.tissue.viscosity = tissue::Viscosity::none;
-    const bool in_time = flows || found.inertia >= scenario.solver.tolerance;
-    double& interval = scenario.output.interval;
-    const double wanted =
-        scenario::programme_time(scenario) / (in_time ? most_moments_in_time : most_moments);
-    interval *= std::max(1.0, std::ceil(wanted / interval));
-    const chart::Reference reference = chart::refer(family.cases.front(), family, 3);
+    const Reference reference = refer(asked_, case_, {most_moments, most_moments_in_time});
     if (reference.diverged) throw MeshError("the reference diverged: " + *reference.diverged);
     Truth truth{"refined", "", {}};
     double turned = 0.0;
     double peak = 0.0;
-    // The reference of a still press leaves inertia out. Where this is more than a little, coupled
-    // springs say what it adds; where they do not, the estimate counts as an error.
-    const double waves =
-        reference.moves || found.inertia <= 0.1 * scenario_.solver.tolerance ? 0.0 : found.inertia;
-    std::optional<Inertia> added;
-    if (waves > 0.0 && !flows) added = inertia_of_press(interval, reference.rows);
-    for (std::size_t i = 0; i < reference.rows.size(); ++i) {
-      const chart::ReferenceRow& row = reference.rows[i];
-      const Moment more = added ? added->added[i] : Moment{.error = waves * std::abs(row.force)};
-      truth.moments.push_back({row.step, row.time, row.force + more.value, row.error + more.error});
+    for (const ReferenceRow& row : reference.rows) {
+      truth.moments.push_back({row.step, row.time, row.force, row.error});
       peak = std::max(peak, row.force);
       turned = std::max(turned, std::abs(row.by_sphere - 1.0) * row.force);
     }
-    const std::string inertia =
-        added ? "and what inertia adds to coupled springs, " + percent_text(added->greatest)
-              : "without inertia, whose estimated effect is " + percent_text(found.inertia);
     truth.sentence =
-        reference.moves
-            ? "coupled springs on three meshes, extrapolated (`palpate reference`); forces" +
-                  depth_text(found)
-            : "`solid` on three meshes, extrapolated (`palpate reference`), " + inertia;
-    const double own = own_error(scenario_, truth.moments).greatest;
-    truth.sentence += "; its own error is about " + percent_text(own);
+        (reference.moves
+             ? "coupled springs on three meshes, extrapolated (`palpate reference`); forces" +
+                   depth_text(found)
+             : "`solid` on three meshes, extrapolated (`palpate reference`); " + reference.how) +
+        "; its own error is about " + percent_text(own_error(scenario_, truth.moments).greatest);
     if (turned > 0.0 && peak > 0.0)
       truth.sentence += ", and the choice of the pressure's direction at this depth " +
                         percent_text(turned / peak) + ", which is not included";
@@ -214,49 +233,6 @@ class Finder {
 
   // The spacing of the nodes in the mesh of the last run(), relative to the specimen's size.
   [[nodiscard]] double spacing() const { return 1.0 / std::cbrt(static_cast<double>(nodes_)); }
-
-  // What inertia adds to the values of coupled springs on a mesh, and the largest change, relative
-  // to the largest value.
-  struct Inertia {
-    History added;
-    double greatest = 1.0;
-  };
-  template <class Run>
-  [[nodiscard]] Inertia inertia_of(const Run& run_with) const {
-    const History moving = run_with("modal");
-    const History still = without_starts(scenario_, run_with("quasi_static"));
-    Inertia inertia{.added = without_starts(scenario_, moving)};
-    if (const auto off = deviation(scenario_, moving, still)) inertia.greatest = off->greatest;
-    for (std::size_t i = 0; i < still.size(); ++i) inertia.added[i].value -= still[i].value;
-    return inertia;
-  }
-
-  // What inertia adds to an elastic press on a mesh with four times the scenario's nodes; its error
-  // is the difference to the scenario's own mesh. Nothing without such meshes, and for slides.
-  [[nodiscard]] std::optional<Inertia> inertia_of_press(
-      double interval, const std::vector<ReferenceRow>& rows) const {
-    if (rows.empty() || rows.back().slide != 0.0) return std::nullopt;
-    set_doing("effect of inertia");
-    const auto on = [&](double factor) {
-      return inertia_of([&](const char* integrator) {
-        return run({model_setting(scenario::strongest.of), "contact.coupling=consistent",
-                    "tissue.viscosity=none", std::string("solver.integrator=") + integrator,
-                    "output.interval=" + number_text(1e3 * interval) + " ms",
-                    mesh_setting(one_.scenario, factor)});
-      });
-    };
-    try {
-      const Inertia own = on(1.0);
-      Inertia finer = on(4.0);
-      if (own.added.size() != rows.size()) return std::nullopt;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        finer.added[i].error = std::abs(finer.added[i].value - own.added[i].value);
-      return finer;
-    } catch (const InputError&) {
-    } catch (const MeshError&) {
-    }
-    return std::nullopt;
-  }
 
   // The value of the material's law at the time `t` (s) after the beginning of a step:
   // strain = s/E (J(t) - J(t - t_1)), J the creep compliance times E; stress = e E(t).
@@ -332,5 +308,38 @@ class Finder {
 }  // namespace
 
 Truth find_truth(const Asked& asked, std::size_t of_case) { return Finder(asked, of_case).find(); }
+
+std::optional<History> exact_in_time(const Asked& asked, const Variant& variant,
+                                     integrate::KnownModes& known) {
+  const double interval = coarsest_interval(asked.family.cases[variant.of_case].scenario);
+  std::vector<History> finer;
+  try {
+    // Modes follow the constant loads of a uniform test exactly.
+    const double longest = asked.family.cases[variant.of_case].scenario.uniform() ? interval : 5e-4;
+    for (const double step : {longest, 0.5 * longest}) {
+      std::vector<std::string> settings = variant.settings;
+      settings.emplace_back("solver.integrator=modal");
+      settings.push_back("output.interval=" + number_text(1e3 * interval) + " ms");
+      settings.push_back("solver.substeps=" +
+                         number_text(std::max(1.0, std::round(interval / step))));
+      const auto family = with_settings(asked, variant.of_case, settings);
+      scene::Scene scene = run::build_scene(family.cases.front(), family);
+      if (!scene.specimen || scene.specimen->network.nodes() > most_modal_nodes)
+        return std::nullopt;
+      scene.scenario.solver.modes = 3 * scene.specimen->network.nodes();  // all
+      scene.known_modes = &known;
+      scene.scenario.output.keep_rows_only();
+      const record::CaseRecord record = run::run_case(scene);
+      if (record.outcome != record::Outcome::completed) return std::nullopt;
+      finer.push_back(without_starts(scene.scenario, history(scene.scenario, record)));
+    }
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  History best = finer.back();
+  for (std::size_t i = 0; i < best.size(); ++i)
+    best[i].error = std::abs(best[i].value - finer.front()[i].value);
+  return best;
+}
 
 }  // namespace palpate::chart

@@ -2,10 +2,29 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "chart/design.h"
 #include "chart/history.h"
+
+namespace palpate::chart {
+
+struct Extrapolated {
+  double value = 0.0;
+  double error = 0.0;  // estimated, in the unit of the value, not negative
+  double order = 0.0;  // observed p, from 1/2 to 3; 0 if the values show no order
+};
+
+// Fits value + C h^p to the last three of `values`, computed with decreasing `spacings` h; p is the
+// observed order, but at least 1/2. The error is the correction of the finest value, but at least
+// half the last change. If the values oscillate or converge faster than p = 3, the value is the
+// finest one, and the error their spread. Two values are extrapolated with p = 1 and twice the
+// error; one value gets an infinite error. docs/theory.md [extrapolation]
+[[nodiscard]] Extrapolated extrapolate(std::span<const double> spacings,
+                                       std::span<const double> values);
+
+}  // namespace palpate::chart
 
 namespace palpate::integrate {
 struct KnownModes;
@@ -29,8 +48,7 @@ struct Truth {
 //   a uniform test between  the material's creep or relaxation; its error is the effect of inertia,
 //   slippery platens        computed by `modal` on a mesh of about 60 nodes
 //   any other press         chart::refer() with at most 20 moments (50 if viscosity or inertia
-//                           matters), on elastic tissue if the scenario's contact is elastic, and
-//                           what inertia adds to coupled springs if that is not little
+//                           matters)
 //   any other uniform test  coupled springs on three meshes, extrapolated, and what inertia adds
 //   a ready mesh that moves coupled springs on it; its error is the estimated error of the model
 // Says its stage by set_doing(). Throws Stopped, like with_settings(), scene::build() and

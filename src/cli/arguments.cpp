@@ -243,9 +243,6 @@ void add_options(CLI::App& verb, Reference& reference) {
   verb.add_option("scenario", reference.scenario, "Scenario file")
       ->required()
       ->type_name("SCENARIO");
-  verb.add_option("--levels", reference.levels, "Number of meshes, each finer than the last")
-      ->capture_default_str()
-      ->check(CLI::Range(3, 8));
   add_settings(verb, reference.settings);
   verb.add_option("--out", reference.out, "Folder to write SCENARIO_reference.csv into");
   verb.add_flag("--force", reference.force, "Replace that file");

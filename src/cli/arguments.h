@@ -144,7 +144,6 @@ struct Reference {
                              "Forces by mesh refinement and extrapolation, with their error"};
   std::string scenario;
   std::vector<std::string> settings;
-  int levels = 3;
   std::string out;  // a folder; empty: no file is written
   bool force = false;
 };

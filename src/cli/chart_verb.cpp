@@ -8,7 +8,6 @@
 #include "base/text.h"
 #include "base/whole_folder.h"
 #include "chart/journal.h"
-#include "chart/scatter.h"
 #include "chart/table.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"

@@ -23,6 +23,7 @@
 #include "scenario/find.h"
 #include "scenario/integrators.h"
 #include "scenario/key_meaning.h"
+#include "scenario/words.h"
 #include "scene/places.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
@@ -32,6 +33,13 @@ namespace palpate::cli {
 namespace {
 
 using Solver = scenario::Resolved::Solver;
+
+// A choice by its word and what the manual says of it.
+template <class Enum, std::size_t size>
+std::string told(const Words<Enum, size>& words, Enum value) {
+  const Word& one = words[as_index(value)];
+  return std::string(one.word) + ": " + one.meaning;
+}
 
 std::string milliseconds(double seconds) { return rounded_text(1e3 * seconds) + " ms"; }
 
@@ -360,27 +368,8 @@ class Explanation {
     if (contact.friction > 0.0) line("  friction     mu " + number_text(contact.friction));
     curvature();
     if (!scene_.specimen) return;
-    switch (contact.coupling) {
-      case contact::Coupling::one_way:
-        line(
-            "  coupling     one way: the mesh follows the force of eq. (2) and does not change it");
-        break;
-      case contact::Coupling::series:
-        line(
-            "  coupling     series: counts the tissue's compliance twice, up to 64 % of the force "
-            "is lost; `consistent` does not");
-        break;
-      case contact::Coupling::consistent:
-        line(scene_.layer
-                 ? "  coupling     consistent: the exact law of the flat layer; the travel is "
-                   "reduced by the mesh's further displacement"
-                 : "  coupling     consistent: the travel is reduced by the displacement of the "
-                   "mesh "
-                   "that Hertz's law lacks");
-        break;
-      case contact::Coupling::resolved:
-        line("  coupling     resolved: the mesh represents the whole tissue; no law is used");
-    }
+    line("  coupling     " + told(scenario::words::couplings, contact.coupling) +
+         (scene_.layer ? "; the law is the exact one of the flat layer" : ""));
     const auto& rings = scene_.scenario.solver.rings;
     if (rings)
       line("  rings        " + std::to_string(*rings) +
@@ -391,20 +380,11 @@ class Explanation {
 
   void curvature() {
     const scenario::PlainContact& contact = scene_.scenario.contact;
-    std::string text = "  curvature    ";
-    switch (contact.law) {
-      case contact::CurvatureLaw::elliptic: text += "elliptic: both curvatures, exactly"; break;
-      case contact::CurvatureLaw::geometric:
-        text += "geometric: the geometric mean of both curvatures";
-        break;
-      case contact::CurvatureLaw::mean: text += "mean: the mean curvature, eq. (2)"; break;
-    }
+    std::string text = "  curvature    " + told(scenario::words::laws, contact.law);
     if (scene_.specimen)
-      text += std::string("; measured by ") +
-              (contact.curvature == geometry::CurvatureMethod::quadric  ? "quadrics"
-               : contact.curvature == geometry::CurvatureMethod::taubin ? "Taubin"
-                                                                        : "Taubin without sign") +
-              " over " + std::to_string(contact.curvature_rings) +
+      text += std::string("; measured by `") +
+              word(scenario::words::curvature_methods, contact.curvature) + "` over " +
+              std::to_string(contact.curvature_rings) +
               (contact.curvature_rings == 1 ? " ring" : " rings") + " of vertices, " +
               (contact.curvature_on == scenario::Contact::CurvatureOn::rest ? "at rest"
                                                                             : "as deformed");

@@ -4,9 +4,20 @@
 #include <string>
 
 #include "cli/arguments.h"
+#include "fit/adhesive.h"
+#include "fit/contact_model.h"
 #include "fit/regression.h"
 
 namespace palpate::cli {
+
+// A length above 0 from an option's text, m. Throws InputError.
+[[nodiscard]] double length_of(const std::string& option, const std::string& text);
+
+[[nodiscard]] fit::AdhesiveTest adhesive_test(const Fit& command);
+
+// The test that the options describe. Throws InputError for unknown words, for a tip without its
+// size, and for options that contradict each other.
+[[nodiscard]] fit::ContactTest contact_test(const Fit& command);
 
 // Refuses unknown models, options that the model does not use, and models without their required
 // options. Throws InputError.

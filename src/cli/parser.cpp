@@ -50,7 +50,7 @@ constexpr std::array<Listed, 18> listed{
      {"device", measured, "palpate device probe mark10:/dev/ttyUSB0"},
      {"chart", judging, "palpate chart press.toml"},
      {"stability", judging, "palpate stability press.toml"},
-     {"reference", judging, "palpate reference press.toml --levels 4"},
+     {"reference", judging, "palpate reference press.toml --out truth"},
      {"convert", files, "palpate convert leg.stl --unit mm --edge \"3 mm\" --out leg.vtu"},
      {"open", files, "palpate open out/press"},
      {"manual", installers, "palpate manual keys --man"},

@@ -16,14 +16,16 @@ namespace palpate::cli {
 
 int perform(const Reference& command, const Arguments&, const Talk& talk) {
   namespace fs = std::filesystem;
-  const scenario::Family family = scenario::read(command.scenario, command.settings);
+  const chart::Asked asked = chart::read_asked(command.scenario, command.settings);
+  const scenario::Family& family = asked.family;
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
   const fs::path file = fs::path(command.out) / (family.name + "_reference.csv");
   std::vector<std::pair<std::string, chart::Reference>> found;
   bool diverged = false;
-  for (const scenario::Case& one : family.cases) {
+  for (std::size_t i = 0; i < family.cases.size(); ++i) {
+    const scenario::Case& one = family.cases[i];
     std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) { return one.name; });
-    chart::Reference reference = chart::refer(one, family, command.levels);
+    chart::Reference reference = chart::refer(asked, i);
     ticker.reset();
     for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");
     if (reference.diverged) {

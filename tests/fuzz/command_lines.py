@@ -77,7 +77,7 @@ export o/s --to csv-si --out e --force
 device probe replay:data.csv
 device monitor replay:data.csv
 device stop mark10:nowhere
-reference half.toml --levels 3
+reference half.toml --out truth
 bench mesh.toml --frames 2
 chart half.toml --repeats 1 --out o
 stability mesh.toml --out o

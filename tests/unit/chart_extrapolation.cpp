@@ -1,5 +1,5 @@
 // Richardson's extrapolation: exact for powers, careful where numbers do not settle.
-#include "chart/extrapolation.h"
+#include "chart/truth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The front of a cloud and its knee, degenerate clouds too.
-#include "chart/pareto.h"
+#include "chart/table.h"
 
 #include <gtest/gtest.h>
 

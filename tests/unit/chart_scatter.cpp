@@ -1,5 +1,5 @@
 // The scatter's script runs without a word, and its picture shows what the table says.
-#include "chart/scatter.h"
+#include "chart/table.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

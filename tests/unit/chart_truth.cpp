@@ -86,7 +86,7 @@ TEST(ChartReference, SpheresThatStandForOneHaveItsForce) {
         "size = [\"30 mm\", \"30 mm\", \"15 mm\"] }\n[contact]\nviscosity = \"none\"\n"
         "[finger]\nmaterial = \"rigid\"\nspheres = " +
         std::string(spheres) + "\n");
-    return refer(one.family.cases.front(), one.family, 3).rows.back().force;
+    return refer(one, 0).rows.back().force;
   };
   EXPECT_EQ(greatest("8"), greatest("1"));
 }
