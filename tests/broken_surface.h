@@ -13,8 +13,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "meshing/surface_check.h"
 #include "meshing/surface_files.h"
+#include "meshing/surface_repair.h"
 
 namespace palpate::meshing {
 

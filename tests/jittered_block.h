@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "base/block_matrix.h"
 #include "base/cholesky.h"
-#include "base/split_matrix.h"
 #include "geometry/cuboid.h"
 #include "test_surfaces.h"
 #include "tissue/coupled.h"

@@ -1,15 +1,35 @@
 // A symmetric sparse matrix of 3 x 3 blocks, a part of which is kept as a product.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <span>
 #include <vector>
 
 #include "base/index.h"
-#include "base/split_matrix.h"
 #include "base/vec3.h"
 
 namespace palpate {
+
+// A symmetric sparse matrix, a part of which is kept as a product.
+// A = local + shared^T diag(weights) shared. If the rows of `shared` are long, multiplying them out
+// would fill in the matrix. Without such a part `shared` has no rows.
+struct SplitMatrix {
+  Eigen::SparseMatrix<double> local;   // n x n
+  Eigen::SparseMatrix<double> shared;  // m x n
+  Eigen::VectorXd weights;             // size m, no zeros
+
+  [[nodiscard]] Eigen::VectorXd operator*(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd y = local * x;
+    if (weights.size() > 0) y += shared.transpose() * weights.cwiseProduct(shared * x);
+    return y;
+  }
+  SplitMatrix& operator*=(double factor) {
+    local *= factor;
+    weights *= factor;
+    return *this;
+  }
+};
 
 // Rows of entries: row i has the entries start[i] to start[i + 1] - 1.
 struct BlockRows {

@@ -6,13 +6,25 @@
 #include <Eigen/MetisSupport>
 #include <Eigen/SparseCholesky>
 #include <cmath>
+#include <csignal>
 #include <utility>
 #include <vector>
 
 #include "base/index.h"
-#include "base/metis_lock.h"
+
+// METIS handles SIGTERM and SIGABRT while it works, for all threads, by a jump back to its own
+// caller, and then puts the handlers from before back for one signal only. This definition stands
+// in front of the C library's for the libraries that palpate loads, of which METIS alone asks for
+// it: the handlers stay those of the program.
+extern "C" sighandler_t __sysv_signal(int, sighandler_t) noexcept { return SIG_DFL; }
 
 namespace palpate {
+
+std::mutex& metis_lock() {
+  static std::mutex one_at_a_time;
+  return one_at_a_time;
+}
+
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
-#include "base/split_matrix.h"
+#include "base/block_matrix.h"
 
 namespace palpate {
+
+// Held by whoever calls METIS.
+std::mutex& metis_lock();
 
 class Cholesky {
  public:

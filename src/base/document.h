@@ -64,4 +64,16 @@ void set_place(Node& node, const Place& place);
 // UTF-8.
 [[nodiscard]] std::pair<std::string, Node> parse_assignment(const std::string& assignment);
 
+// A text or a key in double quotes, with escape sequences.
+[[nodiscard]] std::string toml_text(std::string_view text);
+
+// A key, quoted if TOML requires it.
+[[nodiscard]] std::string toml_key(std::string_view key);
+
+// A value on one line; tables are written inline.
+[[nodiscard]] std::string toml_value(const Node& value);
+
+// A whole document: first top-level keys, then each table under its [header], inline tables in it.
+[[nodiscard]] std::string toml_document(const Node& root);
+
 }  // namespace palpate

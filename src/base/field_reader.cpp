@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "base/range_text.h"
+#include "base/field_writer.h"
 #include "base/text.h"
 
 namespace palpate {

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/cholesky.h"
 #include "base/index.h"
-#include "base/metis_lock.h"
 #include "base/stop_scope.h"
 #include "base/wide.h"
 

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "run/choose.h"
 #include "run/refined_mesh.h"
-#include "scenario/find.h"
+#include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"

@@ -18,7 +18,7 @@
 #include "fit/fit_table.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
-#include "record/swept_column.h"
+#include "record/table.h"
 
 namespace palpate::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/child_process.h"
-#include "base/document_writer.h"
+#include "base/document.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
@@ -21,7 +21,7 @@
 #include "compare/compare_folders.h"
 #include "fit/case_fits.h"
 #include "record/csv.h"
-#include "report/machine.h"
+#include "report/manifest.h"
 #include "report/results.h"
 #include "run/family.h"
 

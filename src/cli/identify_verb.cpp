@@ -13,7 +13,7 @@
 #include "identify/identify.h"
 #include "identify/tables.h"
 #include "measured/measured.h"
-#include "report/machine.h"
+#include "report/manifest.h"
 #include "report/results.h"
 
 namespace palpate::cli {

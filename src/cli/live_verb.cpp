@@ -16,7 +16,7 @@
 #include "live/guide.h"
 #include "live/live.h"
 #include "report/answer_lines.h"
-#include "report/machine.h"
+#include "report/manifest.h"
 #include "report/results.h"
 #include "run/choose.h"
 #include "run/family.h"

@@ -8,7 +8,7 @@
 #include "cli/verbs.h"
 #include "commands/complete.h"
 #include "commands/pages.h"
-#include "report/machine.h"
+#include "report/manifest.h"
 #include "scenario/family.h"
 #include "scenario/schema.h"
 #include "scenario/starters.h"

@@ -11,8 +11,8 @@
 #include "cli/options.h"
 #include "commands/complete.h"
 #include "commands/wrong_words.h"
-#include "report/machine.h"
-#include "scenario/find.h"
+#include "report/manifest.h"
+#include "scenario/family.h"
 #include "scenario/schema.h"
 
 namespace palpate::cli {

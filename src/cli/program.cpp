@@ -16,7 +16,7 @@
 #include "cli/interrupt.h"
 #include "cli/talk.h"
 #include "cli/verbs.h"
-#include "report/machine.h"
+#include "report/manifest.h"
 
 namespace palpate::cli {
 

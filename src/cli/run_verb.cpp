@@ -14,7 +14,7 @@
 #include "cli/verbs.h"
 #include "fit/case_fits.h"
 #include "report/answer_lines.h"
-#include "report/machine.h"
+#include "report/manifest.h"
 #include "report/results.h"
 #include "run/family.h"
 

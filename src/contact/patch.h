@@ -1,10 +1,14 @@
 // The contact patch of a sphere on a surface, and its pressure distributed over the vertices.
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "base/vec3.h"
 #include "geometry/smooth_surface.h"
 
 namespace palpate::contact {
@@ -86,6 +90,80 @@ class Spreader {
   Patch from_;               // the patch for which views_ are valid
   std::vector<View> views_;  // one per triangle
   unsigned turn_ = 0;
+};
+
+// The displacement and stress of a half-space under a contact patch with Hertz's pressure or the
+// friction of its slip.
+
+// Isotropic moduli of the half-space, Pa.
+struct HalfSpace {
+  double shear_modulus = 0.0;
+  double poisson_ratio = 0.0;
+};
+
+// At one point, per newton on the patch.
+struct FieldValue {
+  Vec3 displacement = Vec3::Zero();                  // m/N
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  // Pa/N
+};
+
+// The field of an elliptic patch on the plane z = 0 of a half-space z <= 0, whose traction has the
+// shape of Hertz's pressure. It is replaced by point loads, the more of them the nearer the point
+// is: Boussinesq's along -z, Cerruti's in the plane. Points above the plane count as points on it.
+//      K. L. Johnson 1985, eq. (3.18)-(3.19), (3.75)-(3.76); docs/theory.md [split]
+class PatchField {
+ public:
+  // Semi-axes along x and y, m, above 0. The unit vector `along` is the traction's direction: -z,
+  // or any in the plane. `finer` multiplies the numbers of point loads.
+  PatchField(double a, double b, const HalfSpace& half_space, int finer = 1,
+             const Vec3& along = -Vec3::UnitZ());
+
+  [[nodiscard]] FieldValue at(const Vec3& point) const;  // m, from the patch's centre
+  [[nodiscard]] Vec3 displacement(const Vec3& point) const;
+
+ private:
+  struct PointLoad {
+    double x = 0.0, y = 0.0;  // m
+    double share = 0.0;
+  };
+  [[nodiscard]] const std::vector<PointLoad>& loads_for(const Vec3& point) const;
+  [[nodiscard]] Vec3 dragged(const Vec3& point) const;  // m/N, the displacement
+  [[nodiscard]] Eigen::Matrix3d drag_stress(const Vec3& point) const;
+
+  HalfSpace half_space_;
+  Vec3 along_;
+  double reach_ = 0.0;                           // m, the longer semi-axis
+  std::array<std::vector<PointLoad>, 3> loads_;  // for far, near and nearest points
+};
+
+// Size of the wide patch in semi-axes of the contact, and its least size in spacings of the
+// surface. At this size the mesh is finer than its load, and its static compliance is below that of
+// the contact, as docs/theory.md [inertia] requires.
+inline constexpr double wide_semi_axes = 3.0;
+inline constexpr double wide_spacings = 1.5;
+
+// The widened patch about the same point. `axes` are the contact's semi-axes and `spacing` is the
+// edge length of the surface's triangles there, all in m.
+[[nodiscard]] inline Patch wide_patch(Patch patch, const std::array<double, 2>& axes,
+                                      double spacing) {
+  patch.a = std::max(wide_semi_axes * axes[0], wide_spacings * spacing);
+  patch.b = std::max(wide_semi_axes * axes[1], wide_spacings * spacing);
+  return patch;
+}
+
+// The typical size of the triangles of a surface.
+// The edge length (m) of an equilateral triangle of the mean area, for each part of a surface; a
+// part ends at creases.
+class SkinSpacing {
+ public:
+  explicit SkinSpacing(const geometry::SmoothSurface& surface);
+
+  // The spacing (m) of the patch's part; on a sharp edge between those of both sides.
+  [[nodiscard]] double at(const Patch& patch) const;
+
+ private:
+  std::vector<int> part_;        // per triangle
+  std::vector<double> spacing_;  // per part, m
 };
 
 }  // namespace palpate::contact

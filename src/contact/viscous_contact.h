@@ -2,13 +2,100 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "contact/relaxation.h"
-#include "contact/viscous_ring.h"
-#include "contact/viscous_stack.h"
 
 namespace palpate::contact {
+
+// One ring of viscoelastic surface during a time step: pressed by the finger, or free.
+// A ring displaced by w pushes back with q = w + tau w' + sum_k q_k. Each branch q_k follows
+//   q_k' = b_k w' - q_k / tau_k
+// and tau is that of Kelvin-Voigt. All are in m: forces divided by the ring's relaxed stiffness. A
+// free ring, q = 0, recovers by the modes of creep, w = sum_m y_m; y_m decays with the time T_m.
+//                                                       Park and Schapery 1999
+class ViscousRing {
+ public:
+  explicit ViscousRing(const Relaxation& relaxation);
+
+  [[nodiscard]] std::size_t branch_count() const { return relaxation_.branches.size(); }
+  [[nodiscard]] std::size_t mode_count() const { return creep_.modes.size(); }
+  [[nodiscard]] bool elastic() const { return relaxation_.elastic(); }
+  [[nodiscard]] double retardation_time() const { return relaxation_.retardation_time; }  // s
+
+  // Sets the length of the following steps, s; 0 is instantaneous. A new one costs exponentials.
+  void set_time_step(double time_step);
+
+  // Over a whole step: the factor by which a branch decays, the increment of a branch per
+  // displacement at constant speed, and the factor by which a mode decays.
+  [[nodiscard]] std::span<const double> branch_keep() const { return branch_keep_; }
+  [[nodiscard]] std::span<const double> branch_gain() const { return branch_gain_; }
+  [[nodiscard]] std::span<const double> mode_keep() const { return mode_keep_; }
+
+  // Advances branches or modes over the given part of a step, 0 to 1; `sinking` (m) is the
+  // increment of w in that part. Exact for a whole step; for a part the error is of the order dt^3.
+  void press(double part, double sinking, std::span<double> branches) const;
+  void rise(double part, std::span<double> modes) const;
+
+  // let_go() computes the modes (m) of a ring released at the displacement w (m) with the branches
+  // q_k (m) when q is 0; meet() computes the branches (m) of a free ring when it meets the finger.
+  void let_go(double sinking, std::span<const double> branches, std::span<double> modes) const;
+  void meet(std::span<const double> modes, std::span<double> branches) const;
+
+ private:
+  Relaxation relaxation_;
+  Creep creep_;
+  std::vector<double> slopes_;  // sum_k b_k tau_k / (T_m - tau_k)^2 of each mode, 1/s
+  double time_step_ = 0.0;
+  std::vector<double> branch_keep_, branch_gain_, mode_keep_;
+};
+
+// The stored rings of a viscoelastic contact, and the decay of their values.
+// A stack of rings. A ring has a level (m), the elastic force at that level (N), and values that
+// have decayed since it was pushed: value j with rate j % rates. The cost of a time step does not
+// depend on the number of rings, because only the age of the top ring is stored and, for each ring,
+// how much older the one below it is. Memory is allocated at construction only. When the stack is
+// full, rings are removed where they are closest; levels are monotonic from the bottom to the top.
+class FadingStack {
+ public:
+  // `rates` exponential rates with `values` >= 0 values each, and room for `capacity` >= 8 rings.
+  FadingStack(std::size_t rates, std::size_t values, std::size_t capacity);
+
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  // A time step in which rate k decays by the factor keep[k]; value_before() refers to its start.
+  void fade(std::span<const double> keep);
+
+  // The top ring.
+  [[nodiscard]] double level() const { return heads_[size_ - 1].level; }
+  [[nodiscard]] double elastic_force() const { return heads_[size_ - 1].elastic_force; }
+  [[nodiscard]] double value(std::size_t j) const;
+  [[nodiscard]] double value_before(std::size_t j) const;
+  // The ring below the top ring; the stack must have two.
+  [[nodiscard]] double level_below() const { return heads_[size_ - 2].level; }
+  [[nodiscard]] double elastic_force_below() const { return heads_[size_ - 2].elastic_force; }
+
+  void push(double level, double elastic_force, std::span<const double> values);
+  void pop();
+
+ private:
+  struct Head {
+    double level = 0.0;          // m
+    double elastic_force = 0.0;  // N
+  };
+
+  void thin();
+
+  std::size_t rates_, stride_, capacity_;
+  std::size_t size_ = 0;
+  std::vector<Head> heads_;
+  std::vector<double> values_;  // [ring][value], when they were pushed
+  std::vector<double> links_;   // [ring][rate]: decay of the ring below until this one was pushed
+  std::vector<double> age_;     // [rate]: decay of the top ring until now
+  std::vector<double> age_before_;  // [rate]: until the start of the step
+};
 
 // Motion of the contact's edge in a step.
 enum class ContactEdge {

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "geometry/fingertip.h"
+#include "geometry/shapes.h"
 
 namespace palpate::finger {
 namespace {

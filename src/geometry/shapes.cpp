@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
+#include "base/numerics.h"
 #include "base/text.h"
-#include "geometry/box_surface.h"
+#include "geometry/cuboid.h"
 #include "geometry/shape_loops.h"
 
 namespace palpate::geometry {
@@ -205,5 +208,275 @@ int nearest_surface(const Shape& shape, const Vec3& point) {
 std::optional<Sweep> outer_sweep(const Shape& shape) { return std::visit(OuterSweep{}, shape); }
 
 Vec3 extent(const Shape& shape) { return std::visit(Extent{}, shape); }
+
+namespace {
+
+// mm, before scaling.
+constexpr double half_breadth = 9.0;
+constexpr double nail_height = 8.0;  // above the axis
+constexpr double pad_depth = 7.0;    // below it
+constexpr double whole_length = 26.0;
+constexpr double tip_length = 10.0;  // the rounded part of the length
+
+// A ring: `cosine` is 0 on the finger's body and 1 at the tip.
+struct Ring {
+  int count;
+  double cosine;
+  double x;  // mm
+};
+
+// Rings with an even count have vertices on the middle lines of nail and pad, so that the triangles
+// between them are mirror-symmetric. With the base's 15 the number of triangles is odd:
+// 2 (6 + 12 + 4 x 16) + 15 = 179.
+std::array<Ring, 7> rings() {
+  const double half_root_3 = std::sqrt(3.0) / 2.0;
+  const double body = whole_length - tip_length;
+  return {{{6, half_root_3, body + tip_length * half_root_3},  // 30 degrees off the axis
+           {12, 0.5, body + tip_length * 0.5},                 // 60 degrees
+           {16, 0.0, body},
+           {16, 0.0, 0.75 * body},
+           {16, 0.0, 0.5 * body},
+           {16, 0.0, 0.25 * body},
+           {15, 0.0, 0.0}}};
+}
+
+// The vertex of a ring at `angle` from the pad's middle line, counter-clockwise seen from the tip.
+Vec3 on_ring(const Ring& ring, double angle) {
+  // The outline from above and the nail side are ellipses. The pad side and the pad's middle line
+  // are flatter: |y|^4 + |z|^4 = 1 and |x|^4 + |z|^4 = 1. docs/theory.md [fingertip]
+  const double square = ring.cosine * ring.cosine;
+  const double round = std::sqrt(1.0 - square);
+  const double flat = std::sqrt(std::sqrt(1.0 - square * square));
+  const double right = std::sin(angle);
+  const double down = std::cos(angle);
+  if (down <= 0.0) return {ring.x, half_breadth * round * right, -nail_height * round * down};
+  const double reach = 1.0 / std::sqrt(std::hypot(right * right, down * down));
+  return {ring.x, half_breadth * round * right * reach, -pad_depth * flat * down * reach};
+}
+
+// Triangles between a ring of `inner` vertices, starting at `inner_first`, and the next ring
+// towards the base, from the pad's middle line upwards on one side and mirrored on the other.
+void join(int inner_first, int inner, int outer_first, int outer, Surface& surface) {
+  const auto add = [&](int a, int b, int c) { surface.triangles.push_back({a, b, c}); };
+  const auto in = [&](int i) { return inner_first + (i + inner) % inner; };
+  const auto out = [&](int i) { return outer_first + (i + outer) % outer; };
+  int i = 0;
+  int o = 0;
+  while (i < inner / 2 || o < outer / 2) {
+    // The next vertex with the smaller angle comes first; angles are 2 pi i / count.
+    if (i < inner / 2 && (o == outer / 2 || (i + 1) * outer <= (o + 1) * inner)) {
+      add(in(i), out(o), in(i + 1));
+      add(in(-i), in(-i - 1), out(-o));
+      ++i;
+    } else {
+      add(in(i), out(o), out(o + 1));
+      add(in(-i), out(-o - 1), out(-o));
+      ++o;
+    }
+  }
+  if (outer % 2 != 0) add(in(i), out(o), out(o + 1));  // across the middle line of the nail
+}
+
+}  // namespace
+
+Surface fingertip(double volume) {
+  Surface surface;
+  surface.vertices.emplace_back(whole_length, 0.0, 0.0);
+  int inner_first = 0;
+  int inner = 1;
+  for (const Ring& ring : rings()) {
+    const int first = static_cast<int>(surface.vertices.size());
+    for (int i = 0; i < ring.count; ++i) {
+      // The left half is the exact mirror image of the right half.
+      const int right = i <= ring.count / 2 ? i : ring.count - i;
+      Vec3 vertex = on_ring(ring, 2.0 * std::numbers::pi * right / ring.count);
+      if (2 * right == ring.count) vertex.y() = 0.0;
+      if (right != i) vertex.y() = -vertex.y();
+      surface.vertices.push_back(vertex);
+    }
+    join(inner_first, inner, first, ring.count, surface);
+    inner_first = first;
+    inner = ring.count;
+  }
+  const double scale = std::cbrt(volume / enclosed(with_closed_base(surface)).volume);
+  for (Vec3& vertex : surface.vertices) vertex *= scale;
+  return surface;
+}
+
+Surface with_closed_base(const Surface& open) {
+  const Neighbours neighbours(open);
+  Surface closed = open;
+  const int centre = static_cast<int>(open.vertices.size());
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  for (std::size_t t = 0; t < open.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (neighbours.across(static_cast<int>(t))[i] >= 0) continue;
+      const int from = open.triangles[t][i];
+      const int to = open.triangles[t][(i + 1) % 3];
+      closed.triangles.push_back({to, from, centre});
+      sum += open.vertices[as_index(from)];
+      ++count;
+    }
+  if (count > 0) closed.vertices.push_back(sum / count);
+  return closed;
+}
+
+namespace {
+
+// A section with its derivatives with respect to y, by central differences: the sections of all
+// shapes are polynomials of at most fourth degree, so that 1e-3 of the length is exact to 1e-5.
+struct Slopes {
+  Section at, first, second;  // m, 1, 1/m
+
+  Slopes(const Sweep& sweep, double y) {
+    const auto& section = sweep.sections.front();
+    const double step = 1e-3 * sweep.length;
+    const Section before = section(y - step);
+    const Section after = section(y + step);
+    at = section(y);
+    const auto differences = [&](double Section::*of) {
+      first.*of = (after.*of - before.*of) / (2.0 * step);
+      second.*of = ((after.*of - at.*of) - (at.*of - before.*of)) / (step * step);
+    };
+    differences(&Section::straight);
+    differences(&Section::radius);
+  }
+};
+
+ShapeTouch on_edge() {
+  ShapeTouch touch;
+  touch.on_edge = true;
+  return touch;
+}
+
+// A sphere above a sweep, in planes normal to y.
+struct Lowered {
+  const Sweep& sweep;
+  double x, y, radius;
+
+  // The radius of the sphere's section, m.
+  [[nodiscard]] double circle(double at) const {
+    return std::sqrt(std::max(0.0, radius * radius - (at - y) * (at - y)));
+  }
+  // How far the centre is beside the straight part of a section, m.
+  [[nodiscard]] double beside(const Section& section) const {
+    return std::max(0.0, std::abs(x - sweep.x) - section.straight);
+  }
+  // The height (m) of the centre above the sweep's axis if the sections at `at` touch each other.
+  [[nodiscard]] double height(double at) const {
+    const Section section = sweep.sections.front()(at);
+    const double reach = section.radius + circle(at);
+    const double d = beside(section);
+    return d > reach ? -std::numeric_limits<double>::infinity() : std::sqrt(reach * reach - d * d);
+  }
+  // Its derivative, times a positive number.
+  [[nodiscard]] double slope(double at) const {
+    const Slopes section(sweep, at);
+    const double own = circle(at);
+    const double fall = own > 0.0 ? (at - y) / own : (at > y ? 1.0 : -1.0) * HUGE_VAL;
+    return (section.at.radius + own) * (section.first.radius - fall) +
+           beside(section.at) * section.first.straight;
+  }
+};
+
+// f = |(d, z)| - r with d = |x - x_0| - s beside the straight part, else f = z - r.
+//                                                                  docs/theory.md [from_above]
+ShapeTouch on_side(const Lowered& sphere, double at) {
+  const Sweep& sweep = sphere.sweep;
+  const Slopes section(sweep, at);
+  const double side = sphere.x < sweep.x ? -1.0 : 1.0;
+  const double d = sphere.beside(section.at);
+  const double cosine = d / (section.at.radius + sphere.circle(at));
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  const double r_1 = section.first.radius;
+  const double s_1 = section.first.straight;
+  const Vec3 gradient(side * cosine, -(r_1 + s_1 * cosine), sine);
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  second(1, 1) = -section.second.radius - cosine * section.second.straight;
+  const bool round = d > 0.0 || section.at.straight == 0.0;
+  if (round) {
+    const Vec3 around(side * sine, -s_1 * sine, -cosine);
+    second += around * around.transpose() / section.at.radius;
+  }
+  ShapeTouch touch;
+  touch.position = {
+      d > 0.0 ? sweep.x + side * (section.at.straight + section.at.radius * cosine) : sphere.x, at,
+      sweep.z + section.at.radius * sine};
+  touch.curvature = level_curvature(gradient, second);
+  return touch;
+}
+
+std::optional<ShapeTouch> touch_sweep(const Sweep& sweep, double x, double y, double radius) {
+  const Lowered sphere{sweep, x, y, radius};
+  const double from = std::max(0.0, y - radius);
+  const double to = std::min(sweep.length, y + radius);
+  if (!(from <= to)) return std::nullopt;
+  // The heights may have several maxima on a body that is hollow along its axis.
+  constexpr int pieces = 400;
+  const auto place = [&](int i) { return i < pieces ? from + (to - from) * i / pieces : to; };
+  int best = 0;
+  for (int i = 1; i <= pieces; ++i)
+    if (sphere.height(place(i)) > sphere.height(place(best))) best = i;
+  if (!std::isfinite(sphere.height(place(best)))) return std::nullopt;
+  const double low = place(std::max(best - 1, 0));
+  const double high = place(std::min(best + 1, pieces));
+  if ((low == 0.0 && !(sphere.slope(low) > 0.0)) ||
+      (high == sweep.length && !(sphere.slope(high) < 0.0)))
+    return on_edge();
+  const auto rises = [&](double at) { return sphere.slope(at) > 0.0; };
+  return on_side(sphere, numerics::change({low, high}, 0.0, rises).low);
+}
+
+// The centre is at p + t p / a^2 (per axis) for the point p; t grows with the radius.
+std::optional<ShapeTouch> touch_ellipsoid(const Ellipsoid& ellipsoid, double x, double y,
+                                          double radius) {
+  const Vec3 half = 0.5 * ellipsoid.size;
+  const Vec3 squares = half.cwiseProduct(half);
+  const Vec3 away = Vec3(x, y, 0.0) - Vec3(half.x(), half.y(), 0.0);
+  const auto point = [&](double t) {
+    Vec3 p = away.cwiseProduct(squares).cwiseQuotient(squares + Vec3::Constant(t));
+    const double rest = 1.0 - p.x() * p.x() / squares.x() - p.y() * p.y() / squares.y();
+    p.z() = rest >= 0.0 ? half.z() * std::sqrt(rest) : -1.0;
+    return p;
+  };
+  const auto too_near = [&](double t) {
+    const Vec3 p = point(t);
+    return p.z() < 0.0 || t * p.cwiseQuotient(squares).norm() < radius;
+  };
+  double far = 2.0 * radius * half.maxCoeff();  // |p / a^2| is at least 1 / max(a)
+  if (too_near(far)) return std::nullopt;
+  far = numerics::change({0.0, far}, 0.0, too_near).high;
+  const Vec3 p = point(far);
+  // Beside the ellipsoid the search ends where the point reaches the widest section.
+  if (far * p.cwiseQuotient(squares).norm() > radius * (1.0 + 1e-9)) return std::nullopt;
+  return ShapeTouch{
+      .position = half + p,
+      .curvature = level_curvature(p.cwiseQuotient(squares), squares.cwiseInverse().asDiagonal())};
+}
+
+}  // namespace
+
+Curvature level_curvature(const Vec3& gradient, const Eigen::Matrix3d& second) {
+  const double length = gradient.norm();
+  const Vec3 normal = gradient / length;
+  const auto [a, b] = tangent_axes(normal);
+  return principal(
+      normal, {a.dot(second * a) / length, a.dot(second * b) / length, b.dot(second * b) / length});
+}
+
+std::optional<ShapeTouch> touch_from_above(const Shape& shape, double x, double y, double radius) {
+  if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape))
+    return touch_ellipsoid(*ellipsoid, x, y, radius);
+  if (const auto sweep = outer_sweep(shape)) return touch_sweep(*sweep, x, y, radius);
+  const Vec3 size = extent(shape);  // of a cuboid
+  const double past_x = std::max({0.0, -x, x - size.x()});
+  const double past_y = std::max({0.0, -y, y - size.y()});
+  if (std::hypot(past_x, past_y) >= radius) return std::nullopt;
+  if (past_x > 0.0 || past_y > 0.0) return on_edge();
+  ShapeTouch touch;
+  touch.position = {x, y, size.z()};
+  return touch;
+}
 
 }  // namespace palpate::geometry

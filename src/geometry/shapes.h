@@ -1,11 +1,14 @@
 // The shapes that a scenario can name instead of a file, and their surfaces.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <variant>
 
 #include "geometry/body.h"
+#include "geometry/curvature.h"
 #include "geometry/shape_loops.h"
+#include "geometry/surface.h"
 
 namespace palpate::geometry {
 
@@ -75,5 +78,34 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 
 // The size of the shape's bounding box along x, y and z, m.
 [[nodiscard]] Vec3 extent(const Shape& shape);
+
+// The last part of an index finger, 179 triangles: axis along x with the tip at +x, the flatter pad
+// towards -z, the nail side towards +z, mirror-symmetric in y, open at its base in the plane x = 0.
+// It is scaled so that it encloses `volume` (m^3, above 0) with the base closed. The proportions
+// are 18 mm breadth to 15 mm depth to 26 mm length. The breadth is the middle of the 16 to 20 mm
+// that K. Dandekar, B. I. Raju and M. A. Srinivasan give for human fingertips (J. Biomech. Eng.
+// 125, 2003); depth and length are assumed. Shape: docs/theory.md [fingertip].
+[[nodiscard]] Surface fingertip(double volume);
+
+// The surface with its rim closed by triangles around a new vertex at the mean of the rim; flat if
+// the rim is plane. For volume, centre of gravity and drawing. `open` has one rim; a surface
+// without a rim is returned unchanged.
+[[nodiscard]] Surface with_closed_base(const Surface& open);
+
+struct ShapeTouch {
+  Vec3 position = Vec3::Zero();  // m, on the shape
+  Curvature curvature;           // there, with the outward normal
+  bool on_edge = false;          // on the rim of an end face, or beside the top of a cuboid
+};
+
+// Lowers a sphere of `radius` (m) vertically at (x, y) onto the outermost surface of a shape. The
+// result's position and curvature are without meaning on an edge. Empty if the sphere passes beside
+// the shape.                                                        docs/theory.md [from_above]
+[[nodiscard]] std::optional<ShapeTouch> touch_from_above(const Shape& shape, double x, double y,
+                                                         double radius);
+
+// The curvature of the surface f = 0 from the gradient of f, which points outwards, and its second
+// derivatives.                                                       docs/theory.md [level_set]
+[[nodiscard]] Curvature level_curvature(const Vec3& gradient, const Eigen::Matrix3d& second);
 
 }  // namespace palpate::geometry

@@ -54,4 +54,115 @@ void Implicit::finish(State& state, const Vector& displacement, const Vector&) {
   body_->arrive(state, step_);
 }
 
+// past_ = the state advanced by `time` (s) with explicit Euler. An implicit Euler step of the same
+// length from there gives the trapezoidal rule.
+void TrBdf2::extrapolate(const State& state, double time) {
+  Vector& acceleration = acceleration_;
+  past_ = state;
+  if (past_.force.size() == 0) body_->look(past_);
+  acceleration = load_ - past_.force - body_->drag().cwiseProduct(state.velocity);
+  if (body_->has_dashpots()) {
+    body_->dashpot_force(state.displacement, state.velocity, force_);
+    acceleration -= force_;
+  }
+  acceleration = acceleration.cwiseQuotient(body_->mass());
+  const auto held = body_->held();
+  for (std::size_t d = 0; d < held.size(); ++d)
+    if (held[d] != 0) acceleration[static_cast<Eigen::Index>(d)] = 0.0;
+  past_.displacement += time * state.velocity;
+  past_.velocity += time * acceleration;
+  if (!body_->has_dashpots()) {
+    body_->remember(state.displacement, {time, MemoryRule::forward}, past_.memory);
+    return;
+  }
+  // Elongations are extrapolated as e + time e'. Those of springs that rotate contain terms of
+  // second order in time, which the central difference of the elongations ahead and behind removes.
+  const std::vector<double>& ahead = memory_ahead_;
+  const std::vector<double>& behind = memory_behind_;
+  behind_ = state.displacement - time * state.velocity;
+  body_->memory_at(past_.displacement, memory_ahead_);
+  body_->memory_at(behind_, memory_behind_);
+  for (std::size_t i = 0; i < past_.memory.size(); ++i)
+    past_.memory[i] = state.memory[i] + 0.5 * (ahead[i] - behind[i]);
+}
+
+void TrBdf2::begin(const State& state, double time_step, MemoryRule) {
+  time_step_ = time_step;
+  const double euler_step = 0.5 * first_part * time_step;
+  if (!second_) {
+    start_ = state;
+    if (load_.size() == 0) load_ = Vector::Zero(state.displacement.size());
+    extrapolate(state, euler_step);
+  } else {
+    // u1 - a u_gamma + (a - 1) u0 = (1 - gamma) / (2 - gamma) dt u1',  a = 1 / (gamma (2 - gamma));
+    // for this gamma, (1 - gamma) / (2 - gamma) = gamma / 2.
+    constexpr double a = 1.0 / (first_part * (2.0 - first_part));
+    past_ = state;
+    past_.displacement = a * state.displacement - (a - 1.0) * start_.displacement;
+    past_.velocity = a * state.velocity - (a - 1.0) * start_.velocity;
+    for (std::size_t i = 0; i < past_.memory.size(); ++i)
+      past_.memory[i] = a * state.memory[i] - (a - 1.0) * start_.memory[i];
+  }
+  euler_.begin(past_, euler_step, MemoryRule::first_order);
+}
+
+void TrBdf2::finish(State& state, const Vector& displacement, const Vector& load) {
+  euler_.finish(past_, displacement, load);
+  state = past_;
+  state.time = start_.time + (second_ ? 1.0 : first_part) * time_step_;
+  second_ = !second_;
+}
+
+void CreptLoad::set_step(double time_step) {
+  steps_.clear();
+  const auto add = [&](double time) {
+    steps_.push_back(rule_ == MemoryRule::first_order
+                         ? tissue::MemoryStep::first_order(time_step, time)
+                         : tissue::MemoryStep::exact(time_step, time));
+  };
+  if (law_.kind == tissue::Viscosity::kelvin_voigt) add(law_.time);
+  for (const tissue::Branch& branch : law_.branches) add(branch.time);
+}
+
+void CreptLoad::pass(const Vector& load) {
+  if (steps_.empty()) {
+    crept_ = load;
+    return;
+  }
+  if (crept_.size() == 0) {
+    crept_ = Vector::Zero(load.size());
+    memory_.assign(steps_.size(), crept_);
+  }
+  if (law_.branches.empty()) {
+    // tau J' + J = L; the memory is the load before.                   docs/theory.md [memory]
+    const tissue::MemoryStep& step = steps_.front();
+    crept_ = step.keep * crept_ + step.begin * memory_.front() + step.end * load;
+    memory_.front() = load;
+    return;
+  }
+  // L_1 = J_1 + sum b (J_1 - q_1),  q_1 = keep q_0 + begin J_0 + end J_1  docs/theory.md [branches]
+  double stiffness = 1.0;
+  right_ = load;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const double ratio = law_.branches[k].ratio;
+    stiffness += ratio * (1.0 - steps_[k].end);
+    memory_[k] = steps_[k].keep * memory_[k] + steps_[k].begin * crept_;
+    right_ += ratio * memory_[k];
+  }
+  crept_ = right_ / stiffness;
+  for (std::size_t k = 0; k < steps_.size(); ++k) memory_[k] += steps_[k].end * crept_;
+}
+
+void CreptLoad::renumber(const std::vector<Eigen::Index>& from) {
+  const auto turn = [&](Vector& vector) {
+    if (vector.size() == 0) return;
+    const Vector old = vector;
+    vector.resize(static_cast<Eigen::Index>(from.size()));
+    for (std::size_t d = 0; d < from.size(); ++d)
+      vector[static_cast<Eigen::Index>(d)] = from[d] < 0 ? 0.0 : old[from[d]];
+  };
+  turn(crept_);
+  for (Vector& one : memory_) turn(one);
+}
+
 }  // namespace palpate::integrate

@@ -18,7 +18,7 @@
 #include "device/stand_safety.h"
 #include "live/guide.h"
 #include "record/csv.h"
-#include "record/measured_table.h"
+#include "record/record.h"
 #include "run/family.h"
 #include "run/findings.h"
 

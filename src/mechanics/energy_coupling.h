@@ -9,10 +9,9 @@
 
 #include "base/symmetric_solver.h"
 #include "contact/patch.h"
-#include "contact/patch_field.h"
 #include "scene/scene.h"
 #include "tissue/coupled.h"
-#include "tissue/part.h"
+#include "tissue/network.h"
 
 namespace palpate::mechanics {
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "base/symmetric_solver.h"
-#include "integrate/crept_load.h"
+#include "integrate/implicit.h"
 #include "mechanics/contacts.h"
 #include "mechanics/monitor.h"
 #include "mechanics/stepper.h"
-#include "tissue/part.h"
+#include "tissue/network.h"
 
 namespace palpate::mechanics {
 

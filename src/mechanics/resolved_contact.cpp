@@ -6,10 +6,152 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
-#include "contact/complementarity.h"
+#include "contact/balance.h"
 
 namespace palpate::mechanics {
+namespace {
+
+// The integral of p / r over the triangle, m: r is the distance from corner a, and p falls linearly
+// from 1 at a to 0 on the side b c. Along a ray of length rho, int_0^rho (1 - r / rho) dr = rho
+// / 2. With rho = d / cos(angle), d the distance of the side and t the coordinate along it, the
+// integral is d/2 (asinh(t_c / d) - asinh(t_b / d)).
+double hat_potential(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 along = (c - b).normalized();
+  const double t_b = (b - a).dot(along);
+  const double t_c = (c - a).dot(along);
+  const double d = (b - a - t_b * along).norm();
+  return 0.5 * d * (std::asinh(t_c / d) - std::asinh(t_b / d));
+}
+
+}  // namespace
+
+// Computed before the first step, because asinh() may differ between processors in its last bit.
+SkinNodes::SkinNodes(const geometry::SmoothSurface& surface) : surface_(&surface) {
+  const geometry::Surface& skin = surface.surface();
+  triangles_.resize(skin.triangles.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const int number = static_cast<int>(t);
+    Triangle& triangle = triangles_[t];
+    const Vec3 twice = geometry::twice_area(skin, number);
+    triangle.area = 0.5 * twice.norm();
+    triangle.normal = twice.normalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t next = (i + 1) % 3;
+      const auto corner = [&](std::size_t k) -> const Vec3& {
+        return skin.vertices[as_index(skin.triangles[t][k % 3])];
+      };
+      const Vec3 side = corner(next) - corner(i);
+      triangle.squares += side.squaredNorm();
+      triangle.turns +=
+          side.dot(surface.corner_normal(number, next) - surface.corner_normal(number, i));
+      triangle.own[i] = hat_potential(corner(i), corner(i + 1), corner(i + 2));
+    }
+  }
+}
+
+std::optional<PressedNode> SkinNodes::facing(int vertex, const Ball& ball) const {
+  constexpr double least_facing = 0.2;  // cosine; triangles turned further away are not pressed
+  PressedNode node;
+  node.vertex = vertex;
+  node.place = surface_->surface().vertices[as_index(vertex)];
+  const Vec3 away = ball.centre - node.place;
+  Vec3 normal = Vec3::Zero();
+  double area = 0.0;
+  for (const int t : surface_->neighbours().triangles_at(vertex)) {
+    const Triangle& triangle = triangles_[as_index(t)];
+    if (triangle.normal.dot(away) < least_facing * away.norm()) continue;
+    const auto& corners = surface_->surface().triangles[as_index(t)];
+    const auto corner =
+        as_index(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+    area += triangle.area;
+    normal += triangle.area * surface_->corner_normal(t, corner);
+    // A sphere of radius R through the ends of a straight side s is |s|^2 / (2 R) x_1 x_2 above it,
+    // with linear weights x. Above a triangle the heights of the sides add up, and the mean of
+    // x_1 x_2 is 1/12. The surface's curvature adds dn . s to |s|^2 / R, docs/theory.md [gap].
+    node.facets += triangle.area * (triangle.squares / ball.radius + triangle.turns) / 24.0;
+    node.own += triangle.own[corner];
+  }
+  if (area <= 0.0) return std::nullopt;
+  node.normal = normal.normalized();
+  node.area = area / 3.0;
+  node.facets /= area;
+  node.own /= node.area;
+  return node;
+}
+
+NodalTouches::NodalTouches(const scene::Scene& scene)
+    : scene_(&scene),
+      surface_(&*scene.specimen->surface),
+      tree_(surface_->surface()),
+      stars_(surface_->surface(), surface_->neighbours(), {}) {}
+
+// Hertz's law at the pressed place, for estimates; the nodal forces do not use it.
+contact::ContactLaw NodalTouches::law_for_estimates(const geometry::SurfacePoint& at) const {
+  const contact::SphereLaw sphere{scene_->finger.sphere_radius, scene_->finger.sphere_modulus};
+  const auto corners = stars_.at_corners(surface_->surface(), at.triangle);
+  const auto found = geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
+  if (found.known())
+    if (const auto law =
+            contact::contact_law(scene_->scenario.contact.law, sphere, found.curvature))
+      return *law;
+  return *contact::contact_law(scene_->scenario.contact.law, sphere, {});
+}
+
+// Adds the contact of one sphere, from the forces on its nodes; nothing if all are zero.
+void NodalTouches::fill(int sphere, const Ball& ball, const std::vector<PushedNode>& nodes,
+                        const Touch& before, Touch& touch) const {
+  SphereContact& contact = touch.contacts.add();
+  contact.sphere = sphere;
+  Vec3 sum = Vec3::Zero();
+  Vec3 centre = Vec3::Zero();
+  double total = 0.0;
+  double area = 0.0;
+  for (const PushedNode& one : nodes) {
+    if (one.skin.sphere != sphere) continue;
+    contact.nodal.vertices.push_back(one.skin.vertex);
+    contact.nodal.gap.push_back(std::max(0.0, one.left));
+    if (one.force <= 0.0) continue;
+    contact.load.vertices.push_back(one.skin.vertex);
+    contact.load.shares.push_back(one.force);
+    contact.nodal.push.push_back(one.force * one.push);
+    sum += one.force * one.push;
+    centre += one.force * one.skin.place;
+    contact.nodal.peak_pressure = std::max(contact.nodal.peak_pressure, one.force / one.skin.area);
+    total += one.force;
+    area += one.skin.area;
+  }
+  if (total <= 0.0) {
+    touch.contacts.erase(touch.contacts.size() - 1);
+    return;
+  }
+  contact.force = sum.norm();
+  for (double& share : contact.load.shares) share /= total;
+  for (Vec3& push : contact.nodal.push) push /= contact.force;
+  const auto foot = surface_->foot(ball.centre, tree_.nearest(ball.centre));
+  contact.patch.at = foot.at;
+  contact.patch.position = centre / total;
+  contact.patch.normal = -sum / contact.force;
+  contact.patch.axis = contact.patch.normal.unitOrthogonal();
+  contact.patch.a = contact.patch.b = std::sqrt(area / std::numbers::pi);
+  contact.approach = contact.depth = ball.radius - foot.height;
+  contact.law = law_for_estimates(foot.at);
+  for (const SphereContact& old : before.contacts)
+    if (old.sphere == sphere) contact.stretch = old.stretch;
+}
+
+void NodalTouches::meet(const Vec3& finger, const std::vector<Ball>& balls,
+                        const std::vector<PushedNode>& nodes, Touch& touch) const {
+  Touch next = touch;
+  next.finger = finger;
+  next.contacts.clear();
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    fill(static_cast<int>(i), balls[i], nodes, touch, next);
+  rub(*scene_, finger - touch.finger, next);
+  touch = std::move(next);
+}
+
 namespace {
 
 using Eigen::Index;

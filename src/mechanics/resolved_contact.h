@@ -1,14 +1,84 @@
 // Unilateral contact at the nodes of a fine mesh, for the coupling `resolved`.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "geometry/box_tree.h"
+#include "geometry/curvature.h"
+#include "geometry/smooth_surface.h"
+#include "mechanics/contacts.h"
 #include "mechanics/influence.h"
-#include "mechanics/nodal_touches.h"
 
 namespace palpate::mechanics {
+
+// A sphere of the finger.
+struct Ball {
+  Vec3 centre = Vec3::Zero();  // m
+  double radius = 0.0;         // m
+};
+
+// A vertex of the surface under a sphere.     docs/theory.md [unilateral], [gap], [nodal_pressure]
+struct PressedNode {
+  int vertex = 0;
+  int sphere = 0;
+  Vec3 place = Vec3::Zero();    // m, at rest
+  Vec3 normal = Vec3::UnitZ();  // unit, outwards, at rest: of the triangles that face the sphere
+  double area = 0.0;            // m^2, a third of the area of these triangles
+  double facets = 0.0;          // m, o_j of [gap]: mean height of the sphere above flat triangles
+  double own = 0.0;             // 1/m: a half-space sinks by own / (pi E') per newton on this node
+};
+
+class SkinNodes {
+ public:
+  explicit SkinNodes(const geometry::SmoothSurface& surface);
+
+  // The node under a sphere (`sphere` is left at 0); nothing if none of its triangles faces it.
+  [[nodiscard]] std::optional<PressedNode> facing(int vertex, const Ball& ball) const;
+
+ private:
+  struct Triangle {
+    Vec3 normal = Vec3::UnitZ();
+    double area = 0.0;            // m^2
+    double squares = 0.0;         // m^2, sum of the squared lengths of the sides
+    double turns = 0.0;           // m, sum over the sides of (change of normal) . side
+    std::array<double, 3> own{};  // m, integral of p / (distance from a corner) over the triangle,
+                                  // where p falls linearly from 1 at this corner to 0 at the others
+  };
+  const geometry::SmoothSurface* surface_;
+  std::vector<Triangle> triangles_;
+};
+
+// A node that a sphere may push.
+struct PushedNode {
+  PressedNode skin;
+  Vec3 push = Vec3::Zero();  // unit, direction of the force on the node
+  double left = 0.0;         // m, gap with contact forces
+  double force = 0.0;        // N
+};
+
+class NodalTouches {
+ public:
+  // The scene, which has a specimen, must outlive this.
+  explicit NodalTouches(const scene::Scene& scene);
+
+  // Replaces the contacts of `touch` by one per sphere that pushes nodes, with the finger at
+  // `finger` (m) and its friction.
+  void meet(const Vec3& finger, const std::vector<Ball>& balls,
+            const std::vector<PushedNode>& nodes, Touch& touch) const;
+
+ private:
+  void fill(int sphere, const Ball& ball, const std::vector<PushedNode>& nodes, const Touch& before,
+            Touch& touch) const;
+  [[nodiscard]] contact::ContactLaw law_for_estimates(const geometry::SurfacePoint& at) const;
+
+  const scene::Scene* scene_;
+  const geometry::SmoothSurface* surface_;
+  geometry::BoxTree tree_;
+  geometry::CurvatureStars stars_;
+};
 
 // Every node of the surface near a sphere has a gap g_j >= 0 and a force f_j >= 0, one of which is
 // zero, docs/theory.md [unilateral]. They are related by the compliance of the mesh and, for an

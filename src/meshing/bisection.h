@@ -1,10 +1,14 @@
 // Refines a tetrahedral mesh locally, by splitting edges with all tetrahedra around them.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "geometry/shapes.h"
+#include "geometry/smooth_surface.h"
 #include "geometry/tet_mesh.h"
 
 namespace palpate::meshing {
@@ -63,5 +67,51 @@ class Bisection {
   std::vector<char> gone_;            // per tetrahedron
   std::vector<std::vector<int>> at_;  // per node: its tetrahedra, with some that are gone
 };
+
+// The smooth boundaries that the faces of a mesh stand for, so that refined meshes approach them.
+class TrueBoundary {
+ public:
+  // `start` is the mesh before the first refinement. Its outer nodes, and those between the regions
+  // of `shape`, lie on the shape; without a shape the smooth surface through the outer nodes counts
+  // (geometry/smooth_surface.h), and boundaries between regions other than inclusions stay as they
+  // are. Nodes on edges at one of the heights `levels` (m) stay at that height.
+  TrueBoundary(const geometry::TetMesh& start, std::optional<geometry::Shape> shape,
+               std::span<const geometry::Lump> lumps, std::span<const double> levels);
+
+  // The place (m) of the node on an edge: Bisection::Place. Every mesh is refined from the one
+  // before, so that this sees all nodes in their order.
+  [[nodiscard]] Vec3 place(const Bisection::Middle& edge);
+
+  // Gives every inclusion its volume again, by moving its nodes along its radii; the regions'
+  // numbers are those of `lumps`.
+  void restore_lumps(geometry::TetMesh& mesh);
+
+ private:
+  // A node's position on the smooth surface: corners of one of its triangles with their weights.
+  struct OnSkin {
+    std::array<int, 3> vertices{-1, -1, -1};
+    Vec3 weights = Vec3::Zero();
+  };
+  [[nodiscard]] OnSkin between(const OnSkin& a, const OnSkin& b, double share) const;
+  [[nodiscard]] Vec3 smooth_place(const Bisection::Middle& edge, const OnSkin& here) const;
+  [[nodiscard]] std::optional<Vec3> position(const OnSkin& at) const;
+  [[nodiscard]] bool on_end(const Bisection::Middle& edge) const;
+
+  std::optional<geometry::Shape> shape_;
+  std::vector<geometry::Lump> lumps_;
+  std::vector<double> levels_;
+  std::vector<Vec3> nodes_;  // m, as far as they are known here
+  geometry::SmoothSurface skin_;
+  std::vector<OnSkin> on_skin_;  // per node
+  double length_ = 0.0;          // m, of the shape along y
+};
+
+// The mesh with no edge across the plane at height z (m), or no edge of its boundary. A node that
+// is nearer to the plane than a quarter of an edge that crosses it is moved there along that edge,
+// if that leaves the boundary's creases and the borders of regions where they are and turns nothing
+// inside out; the other edges are split. New nodes on the boundary are on `shape`, or on the smooth
+// surface through the mesh's nodes without one.
+[[nodiscard]] geometry::TetMesh cut_at(geometry::TetMesh mesh, double z, bool outer_only,
+                                       const std::optional<geometry::Shape>& shape);
 
 }  // namespace palpate::meshing

@@ -14,7 +14,7 @@ namespace palpate::meshing::cgal_library {
 // The first pair of triangles (lowest indices) that cut, touch or overlap each other apart from the
 // vertices and edges that they share; empty if there is none. The decision is exact for the given
 // coordinates, without a tolerance. About 0.3 s for 1e5 triangles. The surface must be an
-// orientable manifold without flat triangles, open or closed: see surface_check.h.
+// orientable manifold without flat triangles, open or closed: see surface_repair.h.
 [[nodiscard]] std::optional<std::array<int, 2>> self_intersection(const geometry::Surface& surface);
 
 // Delaunay's triangles between points of a plane with these segments as edges, without what lies

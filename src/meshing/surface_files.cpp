@@ -3,19 +3,282 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/index.h"
 #include "base/text.h"
 #include "meshing/cells.h"
-#include "meshing/surface_text.h"
+#include "meshing/table_lines.h"
 
 namespace palpate::meshing {
+namespace {
+
+constexpr double most_items = 1e9;      // fits an int
+constexpr std::size_t stl_header = 84;  // bytes: 80 of text, the number of facets
+constexpr std::size_t stl_facet = 50;   // bytes: a normal, three corners, two spare ones
+
+void expect_text(const std::string& path, const char* format) {
+  if (!is_text(read_text(path)))
+    fail(path, std::string("is not a text file in ") + format +
+                   " format; export it again, or give it the ending of its real format");
+}
+
+// The words `first` to `first` + 2 as coordinates.
+Vec3 point(const TableLines& lines, std::size_t first) {
+  if (lines.words().size() < first + 3)
+    lines.fail("a vertex wants three coordinates, got " +
+               std::to_string(lines.words().size() - std::min(first, lines.words().size())) +
+               "; the file may be cut short: export it again");
+  no_comma(lines);
+  Vec3 at;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    at[static_cast<Eigen::Index>(axis)] = lines.number(first + axis, "a coordinate");
+  return at;
+}
+
+// Appends a facet with vertices of its own. False if two corners are in one place.
+bool add_facet(const std::array<Vec3, 3>& corners, Polygons& polygons) {
+  const auto next = static_cast<int>(polygons.vertices.size());
+  polygons.vertices.insert(polygons.vertices.end(), corners.begin(), corners.end());
+  polygons.corners.push_back({next, next + 1, next + 2});
+  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
+}
+
+std::string two_in_one_place(const Polygons& polygons) {
+  return "facet " + std::to_string(polygons.corners.size() - 1) +
+         " (counting from 0) has two corners in one place; remove it or merge close vertices";
+}
+
+// Runs a pass over the lines. Mistakes in the content become MeshError.
+template <typename Pass>
+Polygons over_lines(const std::string& path, const char* format, const Pass& pass) {
+  expect_text(path, format);
+  TableLines lines(path);
+  try {
+    return pass(std::move(lines));
+  } catch (const InputError& error) {
+    throw MeshError(error.what());
+  }
+}
+
+// Appends a face's corners, which count from `first`, among so many vertices.
+void add_face(const TableLines& lines, std::vector<int>&& corners, int first, std::size_t vertices,
+              Polygons& polygons) {
+  const std::string wrong = wrong_corners("the face", corners, first, vertices);
+  if (!wrong.empty()) lines.fail(wrong);
+  for (int& corner : corners) corner -= first;
+  polygons.corners.push_back(std::move(corners));
+}
+
+// `7`, `7/1`, `7//3` or `-1/-1/-1`: a vertex counted from 1, or backwards from the last one so far.
+int obj_vertex(const TableLines& lines, std::size_t i, int vertices_so_far) {
+  const std::string_view word = lines.words()[i];
+  const auto number = whole_number(word.substr(0, word.find('/')));
+  if (!number || std::trunc(*number) != *number || std::abs(*number) > most_items)
+    lines.fail_at(i, "a corner wants the number of a vertex, got `" + std::string(word) +
+                         "`; write it like `12`, or `-1` for the last vertex so far");
+  const int vertex = static_cast<int>(*number);
+  return vertex < 0 ? vertices_so_far + vertex + 1 : vertex;
+}
+
+Polygons obj(TableLines lines) {
+  std::size_t vertices = 0;
+  TableLines ahead = lines;  // a face may name a later vertex
+  while (ahead.next())
+    if (ahead.words()[0] == "v") ++vertices;
+  Polygons polygons;
+  while (lines.next()) {
+    if (lines.words().back().ends_with('\\'))
+      lines.fail("a line that goes on in the next one is not understood; write it as one line");
+    if (lines.words()[0] == "v") {
+      polygons.vertices.push_back(point(lines, 1));
+    } else if (lines.words()[0] == "f") {
+      const std::size_t words = lines.words().size();
+      if (words < 4) lines.fail(too_few_corners(words - 1));
+      std::vector<int> corners;
+      for (std::size_t i = 1; i < words; ++i)
+        corners.push_back(obj_vertex(lines, i, static_cast<int>(polygons.vertices.size())));
+      add_face(lines, std::move(corners), 1, vertices, polygons);
+    }
+  }
+  return polygons;
+}
+
+// Goes to item `i` of `count`.
+void item(TableLines& lines, const std::string& what, std::size_t i, std::size_t count) {
+  if (!lines.next())
+    lines.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
+               what + "; it is cut short: export it again");
+}
+
+std::size_t count(const TableLines& lines, std::size_t i, const std::string& what) {
+  const int number = i < lines.words().size() ? lines.whole(i, what) : -1;
+  if (number < 0)
+    lines.fail(what +
+               " is missing or negative; after `OFF` write the numbers of vertices, faces "
+               "and edges");
+  return as_index(number);
+}
+
+Polygons off(TableLines lines) {
+  const bool found = lines.next();
+  const std::string_view header = found ? lines.words()[0] : std::string_view();
+  if (!header.ends_with("OFF") || header.find_first_of("4n") != std::string_view::npos)
+    lines.fail(
+        "the file wants to begin with `OFF`; export it again, or give it the ending of its "
+        "real format");
+  std::size_t at = 1;  // the counts may be in the line of `OFF` or in the next line
+  if (lines.words().size() == 1) {
+    at = 0;
+    item(lines, "header lines", 1, 2);
+  }
+  const std::size_t vertices = count(lines, at, "the number of vertices");
+  const std::size_t faces = count(lines, at + 1, "the number of faces");
+  Polygons polygons;
+  for (std::size_t i = 0; i < vertices; ++i) {
+    item(lines, "vertices", i, vertices);
+    polygons.vertices.push_back(point(lines, 0));
+  }
+  for (std::size_t i = 0; i < faces; ++i) {
+    item(lines, "faces", i, faces);
+    const auto corners = as_index(std::max(0, lines.whole(0, "a corner count")));
+    if (corners < 3 || lines.words().size() <= corners)
+      lines.fail(too_few_corners(std::min(corners, lines.words().size() - 1)));
+    std::vector<int> corner;
+    for (std::size_t c = 1; c <= corners; ++c) corner.push_back(lines.whole(c, "a corner"));
+    add_face(lines, std::move(corner), 0, vertices, polygons);
+  }
+  if (lines.next())
+    lines.fail("the header counts " + std::to_string(vertices) + " vertices and " +
+               std::to_string(faces) + " faces, but another line follows; mend the counts");
+  return polygons;
+}
+
+// Normals and names are ignored.
+Polygons ascii_stl(TableLines lines) {
+  constexpr std::array<std::string_view, 7> keywords{"facet",  "outer",   "vertex",  "vertex",
+                                                     "vertex", "endloop", "endfacet"};
+  Polygons polygons;
+  std::array<Vec3, 3> corners;
+  std::size_t state = 0;
+  bool open = false;  // between `solid` and `endsolid`
+  while (lines.next()) {
+    const std::string keyword = lower_case(lines.words()[0]);
+    if (state == 0 && keyword == (open ? "endsolid" : "solid")) {
+      open = !open;
+      continue;
+    }
+    if (!open || keyword != keywords[state])
+      lines.fail("the line wants `" + std::string(open ? keywords[state] : "solid") + "`, got `" +
+                 std::string(lines.words()[0]) + "`; export the file again");
+    if (keyword == "vertex") corners[state - 2] = point(lines, 1);
+    if (state == 4 && !add_facet(corners, polygons)) lines.fail(two_in_one_place(polygons));
+    state = (state + 1) % keywords.size();
+  }
+  if (open)
+    lines.fail("the file ends before `endsolid`, in or after facet " +
+               std::to_string(polygons.corners.size()) + "; it is cut short: export it again");
+  return polygons;
+}
+
+Polygons binary_stl(const std::string& path, const std::string& content) {
+  std::uint32_t facets = 0;
+  if (content.size() >= stl_header)
+    std::memcpy(&facets, content.data() + stl_header - sizeof(facets), sizeof(facets));
+  if (content.size() != stl_header + stl_facet * facets)
+    fail(path,
+         "is neither an ASCII STL, which begins with `solid`, nor a binary one, which would "
+         "have " +
+             std::to_string(stl_header + stl_facet * facets) + " bytes for its " +
+             std::to_string(facets) + " facets, not " + std::to_string(content.size()) +
+             "; it is cut short or of another format: export it again");
+  Polygons polygons;
+  for (std::size_t facet = 0; facet < facets; ++facet) {
+    std::array<std::array<float, 3>, 3> numbers{};
+    // The normal, three floats, comes first.
+    std::memcpy(numbers.data(), content.data() + stl_header + stl_facet * facet + 12,
+                sizeof(numbers));
+    std::array<Vec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = Eigen::Vector3f(numbers[i].data()).cast<double>();
+      if (!corners[i].allFinite())
+        fail(path, "facet " + std::to_string(facet) +
+                       " has a coordinate that is not a finite number; export the file again");
+    }
+    if (!add_facet(corners, polygons)) fail(path, two_in_one_place(polygons));
+  }
+  return polygons;
+}
+
+}  // namespace
+
+void fail(const std::string& path, const std::string& message) {
+  throw MeshError(path + ": " + message);
+}
+
+bool is_text(const std::string& content) {
+  constexpr std::size_t longest_word = 200;
+  std::size_t word = 0;
+  for (const char letter : content) {
+    const auto code = static_cast<unsigned char>(letter);
+    if ((code < ' ' && (code < '\t' || code > '\r')) || code == 127) return false;
+    word = code <= ' ' ? 0 : word + 1;
+    if (word > longest_word) return false;
+  }
+  return true;
+}
+
+void no_comma(const TableLines& lines) {
+  const char* const first = lines.words().front().data();
+  const char* const last = lines.words().back().data();  // in the same line
+  const auto comma = std::string_view(first, as_index(last - first)).find(',');
+  if (comma != std::string_view::npos)
+    lines.fail("a number has a comma; write decimal points, and blanks between numbers");
+}
+
+std::string too_few_corners(std::size_t corners) {
+  return "a face wants three corners or more, got " + std::to_string(corners) +
+         "; the file may be cut short: export it again";
+}
+
+std::string wrong_corners(const std::string& face, const std::vector<int>& corners, int first,
+                          std::size_t vertices) {
+  const int last = static_cast<int>(vertices) + first - 1;
+  for (const int corner : corners)
+    if (corner < first || corner > last)
+      return face + " names vertex `" + std::to_string(corner) + "`, but the vertices run from " +
+             std::to_string(first) + " to " + std::to_string(last) +
+             "; the file may be cut short: export it again";
+  std::vector<int> sorted = corners;
+  std::sort(sorted.begin(), sorted.end());
+  const auto twin = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twin == sorted.end()) return "";
+  return face + " has vertex `" + std::to_string(*twin) +
+         "` twice; remove the face, or split it there";
+}
+
+Polygons read_obj(const std::string& path) { return over_lines(path, "OBJ", obj); }
+
+Polygons read_off(const std::string& path) { return over_lines(path, "OFF", off); }
+
+Polygons read_stl(const std::string& path) {
+  const std::string content = read_text(path);
+  // Many binary files begin with `solid` too. Their facet count, if below 2^24, contains a zero
+  // byte, which text does not.
+  if (content.empty() || !is_text(content)) return binary_stl(path, content);
+  return over_lines(path, "STL", ascii_stl);
+}
+
 namespace {
 
 // The triangles of a polygon from its corner `start`.

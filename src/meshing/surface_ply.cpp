@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "meshing/binary_numbers.h"
 #include "meshing/cells.h"
-#include "meshing/surface_text.h"
+#include "meshing/surface_files.h"
 #include "meshing/table_lines.h"
 
 namespace palpate::meshing {

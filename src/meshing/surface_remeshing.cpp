@@ -10,7 +10,7 @@
 #include "geometry/box_tree.h"
 #include "meshing/cgal_library.h"
 #include "meshing/child_bytes.h"
-#include "meshing/surface_check.h"
+#include "meshing/surface_repair.h"
 
 namespace palpate::meshing {
 namespace {

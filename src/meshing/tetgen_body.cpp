@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <limits>
 #include <map>
 #include <optional>
@@ -13,11 +14,120 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/numerics.h"
 #include "base/text.h"
+#include "base/units.h"
+#include "geometry/cuboid.h"
 #include "meshing/mesh_check.h"
+#include "meshing/surface_remeshing.h"
 #include "meshing/tetgen.h"
 
 namespace palpate::meshing {
+namespace {
+
+using Triple = std::array<int, 3>;
+
+constexpr double good_grid_miss = 0.01;   // stop trying
+constexpr double fair_grid_miss = 0.03;   // keep this grid
+constexpr double worst_grid_miss = 0.25;  // refuse beyond
+constexpr int tries_per_grid = 8;
+// A maximum volume of 0.22 h^3 gives edges inside of about the mean of the grid's edges h and
+// sqrt(2) h; the body then has about 1.1 times the nodes of a structured mesh with cells of side h.
+constexpr double grid_volume_per_cube = 0.22;
+constexpr double nodes_per_lattice = 1.1;
+
+// The spacing h (m) for `target` nodes, whose number decreases with h.
+double spacing_for(const Vec3& size, int target) {
+  const auto excess = [&](double h) {
+    return nodes_per_lattice * (size.x() / h + 1.0) * (size.y() / h + 1.0) * (size.z() / h + 1.0) -
+           target;
+  };
+  return numerics::root({size.minCoeff() / (target + 1.0), 2.0 * size.maxCoeff()}, excess).middle();
+}
+
+Triple cells_for(const Vec3& size, double spacing) {
+  Triple cells;
+  for (int axis = 0; axis < 3; ++axis)
+    cells[as_index(axis)] = std::max(1, static_cast<int>(std::lround(size[axis] / spacing)));
+  return cells;
+}
+
+// Tries meshes and keeps the one with the number of nodes nearest to the target.
+class GridSearch {
+ public:
+  GridSearch(const Vec3& size, int target, double time_limit)
+      : size_(size), target_(target), time_limit_(time_limit), start_(Clock::now()) {}
+
+  [[nodiscard]] double miss() const { return miss_; }
+  [[nodiscard]] geometry::TetMesh& best() { return best_; }
+
+  // Up to tries_per_grid meshes on the grid of this spacing (m).
+  void on_grid(double spacing) {
+    const geometry::Surface surface = geometry::box_surface(size_, cells_for(size_, spacing));
+    const int on_surface = static_cast<int>(surface.vertices.size());
+    const double wanted = std::max(target_ - on_surface, 0);
+    const double cube = spacing * spacing * spacing;
+    double volume = grid_volume_per_cube * cube;
+    double low = 1e-3 * cube;  // gives too many nodes, or was not tried
+    double high = 1e3 * cube;  // gives too few nodes, or was not tried
+    for (int tries = 0; tries < tries_per_grid && miss_ > good_grid_miss; ++tries) {
+      const int inside = attempt(surface, volume) - on_surface;
+      (inside > wanted ? low : high) = volume;
+      // The nodes inside are about proportional to 1 / volume; the bracket limits the estimate.
+      const double guess = volume * (inside + 0.5) / (wanted + 0.5);
+      volume = guess > low && guess < high ? guess : std::sqrt(low * high);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // The time limit decides only whether there is a result, not which.
+  int attempt(const geometry::Surface& surface, double volume) {
+    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (spent >= time_limit_)
+      throw MeshError("no mesh with about " + std::to_string(target_) + " nodes was found within " +
+                      rounded_text(time_limit_) + " s; ask for fewer nodes or allow more time");
+    geometry::TetMesh mesh =
+        tetgen_surface(surface, "pYq1.414a" + number_text(volume), time_limit_ - spent);
+    const int count = static_cast<int>(mesh.nodes.size());
+    const double miss = std::abs(count - target_) / static_cast<double>(target_);
+    if (miss < miss_) {
+      miss_ = miss;
+      best_ = std::move(mesh);
+    }
+    return count;
+  }
+
+  Vec3 size_;  // m
+  int target_;
+  double time_limit_;  // s
+  Clock::time_point start_;
+  double miss_ = HUGE_VAL;
+  geometry::TetMesh best_;
+};
+
+}  // namespace
+
+geometry::TetMesh tetgen_cuboid(const Vec3& size, int target_nodes, double time_limit) {
+  if (target_nodes < 8)
+    throw MeshError("a box cannot be meshed with " + std::to_string(target_nodes) +
+                    " nodes, as it has 8 corners; ask for 8 nodes or more");
+  const double spacing = spacing_for(size, target_nodes);
+  GridSearch search(size, target_nodes, time_limit);
+  // With few nodes the grid determines the count; coarser and finer grids may then fit better.
+  for (const double factor : {1.0, 1.12, 0.89, 1.25, 0.8}) {
+    search.on_grid(factor * spacing);
+    if (search.miss() <= fair_grid_miss) break;
+  }
+  if (search.miss() > worst_grid_miss)
+    throw MeshError("no box mesh near " + std::to_string(target_nodes) +
+                    " nodes was found, the nearest has " +
+                    std::to_string(search.best().nodes.size()) + "; ask for that many or more");
+  check(search.best(), "box by TetGen", size.x() * size.y() * size.z());
+  return std::move(search.best());
+}
+
 namespace {
 
 constexpr double good_miss = 0.01;   // stop trying
@@ -301,6 +411,79 @@ geometry::TetMesh tetgen_shape(const geometry::Shape& shape, std::span<const geo
   for (const double inner : layered ? std::vector{1.0, 2.0, 2.5} : std::vector{1.0})
     if (search.miss() > fair_miss) tune_both(sampling, spacing, inner, search);
   return search.taken();
+}
+
+namespace {
+
+// An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
+double spacing_of(const geometry::Surface& surface) {
+  return std::sqrt(geometry::area(surface) /
+                   (0.433 * static_cast<double>(surface.triangles.size())));
+}
+
+// Whether the surface is finer than the mesh should be.
+bool too_fine(const geometry::Surface& surface, const Target& target) {
+  return target.nodes > 0 ? static_cast<int>(surface.vertices.size()) >= target.nodes
+                          : spacing_of(surface) < 0.5 * target.edge_length;
+}
+
+std::string told(const geometry::Surface& before, std::size_t needles, const Remeshed& after) {
+  std::string text = "the " + std::to_string(before.triangles.size()) +
+                     " triangles of the surface became " +
+                     std::to_string(after.surface.triangles.size()) + " for the mesh";
+  if (needles > 0) text += ", because " + std::to_string(needles) + " of them are needles";
+  return text + (needles > 0 ? "; " : ", because they are finer than the mesh asked for; ") +
+         "the two surfaces are at most " + rounded_text(unit::mm.from_si(after.distance), 2) +
+         " mm apart";
+}
+
+geometry::Body body_of(geometry::Surface surface, std::span<const geometry::Lump> lumps) {
+  const double spacing = spacing_of(surface);
+  geometry::Body body;
+  body.parts.push_back({std::move(surface), 0});
+  for (const geometry::Lump& lump : lumps) geometry::add_lump(body, lump, spacing);
+  return body;
+}
+
+}  // namespace
+
+FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> lumps,
+                     const Target& target, double time_limit) {
+  FileMesh made;
+  const std::size_t needles = count_needles(surface);
+  const auto remesh = [&] {
+    auto better =
+        remeshed(surface, target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length);
+    if (!better) return false;
+    made.remark = told(surface, needles, *better);
+    surface = std::move(better->surface);
+    return true;
+  };
+  const auto meshed = [&](const Target& wanted) {
+    return tetgen_body(body_of(surface, lumps), wanted, time_limit);
+  };
+  std::exception_ptr failure;
+  const auto attempt = [&] {
+    // The mesh keeps the surface's vertices, so that it cannot have fewer nodes.
+    if (target.nodes > 0 && too_fine(surface, target)) return false;
+    try {
+      made.mesh = meshed(target);
+    } catch (const MeshError&) {
+      if (target.nodes == 0) throw;
+      failure = std::current_exception();
+      return false;
+    }
+    return true;
+  };
+  const bool changed = (too_fine(surface, target) || needles > 0) && remesh();
+  if (attempt() || (!changed && remesh() && attempt())) return made;
+  made.mesh = meshed({.edge_length = spacing_of(surface)});
+  if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
+    std::rethrow_exception(failure);
+  made.remark += (made.remark.empty() ? "" : "; ") + std::string("the mesh has ") +
+                 std::to_string(made.mesh.nodes.size()) + " nodes instead of " +
+                 std::to_string(target.nodes) + ", because it keeps the surface's vertices";
+  return made;
 }
 
 }  // namespace palpate::meshing

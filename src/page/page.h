@@ -11,6 +11,10 @@
 
 namespace palpate::page {
 
+// CSS: system fonts, light and dark colours with contrasts of at least 4.5 (WCAG AA), narrow
+// screens, and paper.
+[[nodiscard]] const char* style();
+
 inline constexpr const char* file_name = "report.html";
 
 class Page {

@@ -4,17 +4,53 @@
 #include <array>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/vec3.h"
 #include "geometry/tet_mesh.h"
-#include "record/answer.h"
 #include "record/pressure_map.h"
-#include "record/scene_picture.h"
 #include "record/table.h"
 
 namespace palpate::record {
+
+// The parts of a scene at rest that a picture shows.
+struct ScenePicture {
+  struct Face {
+    std::array<Vec3, 3> corners;  // m, counter-clockwise from outside
+    int region = 0;               // on the inner side of the face
+    int within = -1;              // region on the outer side; -1: the face is part of the surface
+    bool held = false;            // by the base
+  };
+  struct Sphere {
+    Vec3 centre = Vec3::Zero();  // m
+    double radius = 0.0;         // m
+  };
+  std::vector<Face> faces;             // of the specimen at rest; empty: no picture
+  std::vector<std::string> materials;  // one per region
+  std::string base;                    // what holds the held faces
+  std::vector<Sphere> finger;          // at its first touch
+  double travel = 0.0;                 // m, the deepest
+  Vec3 touch = Vec3::Zero();           // m, on the surface, where the first slide begins
+  std::vector<Vec3> slides;            // m, displacements, each from the end of the previous one
+  Vec3 towards = -Vec3::UnitZ();       // the direction of the press
+  // The directions of the scenario's x, y and z in the picture, where z is up.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+// The answer of a case in three plain sentences, as `run`, `explain` and reports show it.
+// Each member is one or more whole sentences for a reader who knows neither the program nor the
+// theory. All are empty before the case has been judged.
+struct Answer {
+  std::string model;     // which model, and why: "Chosen: layer, ... hertz would be 14 % low: ..."
+  std::string error;     // the largest force (or strain) if the case has run, with its stated error
+  std::string left_out;  // which effects are left out, what each would change, and its remedy
+  std::string verdict;   // of a live run: whether measured force and model agree
+  bool complete = true;  // whether nothing worth a remark is left out
+  std::optional<double> stated_error;  // relative, of the force or strain; empty if not estimated
+};
 
 // One row of force_indentation.csv, SI.
 struct ContactRow {
@@ -105,5 +141,8 @@ struct CaseRecord {
 [[nodiscard]] Table strain_table(const std::vector<CaseRecord>& records);
 
 [[nodiscard]] const char* outcome_word(Outcome outcome);
+
+// The columns `case,step,time_s,force_N`: the measured force of every row; null if it has none.
+[[nodiscard]] Table measured_force_table(const std::vector<CaseRecord>& records);
 
 }  // namespace palpate::record

@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "measured/unit.h"
 #include "record/csv.h"
-#include "report/machine.h"
+#include "report/manifest.h"
 
 namespace palpate::report {
 namespace {

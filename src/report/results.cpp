@@ -11,7 +11,7 @@
 #include "base/stop_scope.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
-#include "record/swept_column.h"
+#include "record/table.h"
 #include "report/exr.h"
 #include "report/family_figures.h"
 #include "report/manifest.h"
@@ -19,7 +19,7 @@
 #include "report/run_page.h"
 #include "report/scene_picture.h"
 #include "report/vtu.h"
-#include "tissue/strain.h"
+#include "tissue/coupled.h"
 
 namespace palpate::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "page/html.h"
-#include "record/scene_picture.h"
+#include "record/record.h"
 
 namespace palpate::report {
 

@@ -9,10 +9,8 @@
 #include "run/choose.h"
 #include "run/findings.h"
 #include "run/pace.h"
-#include "run/press.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
-#include "run/uniform.h"
 #include "scenario/words.h"
 #include "scene/specimen_shape.h"
 

@@ -34,4 +34,12 @@ struct Pace {
 [[nodiscard]] bool end_early(record::CaseRecord& record, record::Outcome outcome,
                              const std::string& reason);
 
+// Runs all steps and adds rows, maps, frames, remarks and findings of the mesh to `record`. Throws
+// Stopped where its thread is stopped.
+void press(const scene::Scene& scene, record::CaseRecord& record);
+
+// Runs every `creep` or `relax` step as a separate test of an unloaded specimen; time continues
+// from step to step. Throws Stopped where its thread is stopped.
+void load_uniformly(const scene::Scene& scene, record::CaseRecord& record);
+
 }  // namespace palpate::run

@@ -1,7 +1,7 @@
 // What a picture of a scene at rest shows.
 #pragma once
 
-#include "record/scene_picture.h"
+#include "record/record.h"
 #include "scene/scene.h"
 
 namespace palpate::run {

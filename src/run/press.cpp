@@ -1,5 +1,5 @@
 // Moves the finger through the loading history and writes a row at every output interval.
-#include "run/press.h"
+#include "run/pace.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,6 @@
 #include "mechanics/half_space_contact.h"
 #include "mechanics/pressed_mesh.h"
 #include "run/contact_row.h"
-#include "run/pace.h"
 #include "run/picture.h"
 #include "run/pressure_map.h"
 #include "run/solid_press.h"

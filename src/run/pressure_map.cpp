@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "contact/half_space.h"
-#include "contact/layer_sinking.h"
+#include "contact/hertz.h"
+#include "contact/layer_integral.h"
 #include "mechanics/contacts.h"
 #include "record/pressure_map.h"
 

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "mechanics/pressed_mesh.h"
+#include "meshing/bisection.h"
 #include "meshing/mesh_check.h"
-#include "meshing/true_boundary.h"
 #include "run/choose.h"
 #include "run/size_effect.h"
 #include "scenario/integrators.h"

@@ -1,5 +1,5 @@
 // Runs creep tests under platen forces and relaxation tests at constant platen travel.
-#include "run/uniform.h"
+#include "run/pace.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 #include "contact/relaxation.h"
 #include "mechanics/monitor.h"
 #include "mechanics/stepper.h"
-#include "run/pace.h"
 #include "scenario/integrators.h"
 
 namespace palpate::run {

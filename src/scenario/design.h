@@ -5,13 +5,95 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/document.h"
-#include "scenario/case_table.h"
 
 namespace palpate::scenario {
+
+// `samples` points of the Sobol sequence in [0, 1)^dimensions, one row per point, with the
+// direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2635, 2008), in the order of Gray
+// codes, not scrambled. The first point, the origin, is left out: the sequence begins with (1/2,
+// 1/2, ...). 1 <= dimensions <= most_sobol_dimensions.
+[[nodiscard]] std::vector<double> sobol_points(std::size_t samples, std::size_t dimensions);
+inline constexpr std::size_t most_sobol_dimensions = 3667;
+
+// A Latin hypercube in [0, 1)^dimensions (McKay, Beckman and Conover, Technometrics 21, 239, 1979),
+// one row per point: in every dimension each of the `samples` strata [k, k + 1) / samples contains
+// one point, uniformly distributed in it. The numbers are those of std::mt19937_64, which the C++
+// standard fixes; distributions of the library, which differ, are not used. For one dimension after
+// the other, the strata are permuted (Fisher and Yates, from the last to the second), then a place
+// in each is drawn. samples <= 2^24.
+[[nodiscard]] std::vector<double> latin_hypercube(std::size_t samples, std::size_t dimensions,
+                                                  std::uint64_t seed);
+
+// The value of one key in one case, as if it were written in the document.
+struct Setting {
+  std::string key;   // dotted path
+  Place place;       // of the key in [sweep] or in the CSV's header
+  Node value;        // with a place of its own
+  std::string word;  // for the case's name and `swept`: the value as written, without folders
+};
+
+// Whether the value of a key, given as a dotted path or its last word, may name a file.
+[[nodiscard]] bool names_file(std::string_view key);
+
+// The word for a swept value: files without their folder, lists as `3 x 4 x 6` or the one value
+// that they repeat, tables as their number in the list (from 1; `index` is counted from 0).
+[[nodiscard]] std::string value_word(const std::string& key, const Node& value, std::size_t index);
+
+// Finds the unit that all added values are written in; see Varied::unit.
+class CommonUnit {
+ public:
+  void add(const Node& value);
+  [[nodiscard]] const std::optional<std::string>& unit() const { return unit_; }
+
+ private:
+  std::optional<std::string> unit_;
+  bool begun_ = false;
+};
+
+// Keeps the text of the file and parses a row when it is requested, so that a million rows need no
+// more memory than their file.
+class CaseTable {
+ public:
+  struct Column {
+    std::string key;
+    Place place;
+    std::string unit;                        // from the header, `key [unit]`; may be empty
+    std::optional<std::string> common_unit;  // of all rows; see Varied::unit
+  };
+
+  CaseTable() = default;
+
+  // `path` names the file in messages. Header cells are `key` or `key [unit]`; cells are separated
+  // by commas, and quoted by RFC 4180 if they contain one. Throws InputError, with the place of the
+  // cell, for rows of different length, empty cells, repeated columns, a file without rows, and a
+  // file that is not text.
+  CaseTable(std::string text, std::string path);
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+  // The settings of row i < size(), from 0. Cells are numbers, `true` or `false`, TOML if they
+  // begin with `[` or `{`, and otherwise texts; a number below a unit in the header becomes a text.
+  [[nodiscard]] std::vector<Setting> row(std::size_t i) const;
+
+ private:
+  struct Row {
+    std::size_t at = 0;  // position of its first byte
+    int line = 0;
+  };
+
+  std::string text_;
+  std::string path_;
+  std::vector<Column> columns_;
+  std::vector<Row> rows_;
+};
 
 // A range of values, both ends included.
 struct Interval {

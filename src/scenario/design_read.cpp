@@ -9,7 +9,6 @@
 #include "base/text.h"
 #include "scenario/design.h"
 #include "scenario/family.h"
-#include "scenario/sample_points.h"
 
 namespace palpate::scenario {
 namespace {

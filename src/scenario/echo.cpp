@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/document_writer.h"
+#include "base/document.h"
 #include "base/field_writer.h"
 #include "base/text.h"
 #include "scenario/resolved.h"

@@ -14,4 +14,8 @@ namespace palpate::scenario {
 // All keys by the names that `--set` takes, with the words that they may have.
 [[nodiscard]] std::vector<FlatKey> settable_keys();
 
+// The rows of the manual for a key, given as `table.key` or `key`, or for all keys of a table.
+// Throws InputError, with the nearest key, if there are none.
+[[nodiscard]] std::string meaning_of_key(const std::string& asked);
+
 }  // namespace palpate::scenario

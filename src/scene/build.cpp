@@ -1,19 +1,22 @@
 // Builds a scene from a case: mesh, springs, supports, time steps.
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "base/text.h"
 #include "contact/hertz.h"
 #include "contact/patch.h"
-#include "contact/skin_spacing.h"
-#include "contact/wide_patch.h"
+#include "geometry/shapes.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
+#include "scene/refining_press.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
@@ -389,6 +392,145 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
     if (scene.solid) refuse_outside(scenario, scene.solid->skin->surface(), family);
   }
   return scene;
+}
+
+const Forecast* Choice::forecast(scenario::Model model) const {
+  for (const Forecast& rung : rungs)
+    if (rung.model == model && rung.cannot.empty()) return &rung;
+  return nullptr;
+}
+
+std::string Choice::shortfall(std::optional<double> mesh_error) const {
+  const Forecast* rung = taken();
+  const double error = rung != nullptr ? rung->known(mesh_error) : 0.0;
+  if (given || !(error > chosen.solver.tolerance)) return "";
+  return "no model is expected to be within the tolerance of " +
+         percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
+         "` comes nearest with " + error_text(error) +
+         (chosen.meshed() && !refines(chosen) ? "; a finer `tissue.mesh` may help" : "");
+}
+
+Choice given_choice(const scenario::Case& one, scenario::Model model, SpecimenShapes& shapes) {
+  Choice choice;
+  choice.given = true;
+  choice.chosen = scenario::resolve(one, model);
+  place_in_scene(choice.chosen, one.folder, shapes);
+  if (choice.chosen.uniform()) return choice;
+  choice.touch = surface_touch(choice.chosen, one.folder, shapes);
+  choice.expected = estimate(choice.chosen, choice.touch);
+  return choice;
+}
+
+contact::Relaxation relaxation_of(const tissue::ViscousLaw& law) {
+  contact::Relaxation relaxation;
+  relaxation.retardation_time = law.time;
+  for (const tissue::Branch& branch : law.branches)
+    relaxation.branches.push_back({branch.time, branch.ratio});
+  return relaxation;
+}
+
+contact::Relaxation contact_relaxation(const scenario::Resolved& scenario, const Finger& finger) {
+  if (!scenario::viscous_contact(scenario) || scenario.uniform()) return {};
+  return contact::behind_finger(relaxation_of(scenario.tissue.law), finger.compliance_share);
+}
+
+contact::Layer layers_of(const scenario::Resolved& scenario, double share) {
+  const auto& tissue = scenario.tissue;
+  contact::Layer layer{.base = tissue.base == tissue::Base::bonded
+                                   ? contact::LayerBase::bonded
+                                   : contact::LayerBase::frictionless,
+                       .share = share};
+  layer.poisson_ratio = tissue.poisson_ratio;
+  using Layered = std::pair<const scenario::Slab*, const scenario::Resolved::Region*>;
+  std::vector<Layered> slabs;
+  for (const auto& region : scenario.regions)
+    if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
+      slabs.emplace_back(slab, &region);
+  // The height of a body from a file is not known here: one layer.
+  const auto shape = parametric(tissue.shape);
+  if (slabs.empty() || !shape) return layer;
+  std::sort(slabs.begin(), slabs.end(), [](const Layered& one, const Layered& other) {
+    return one.first->top > other.first->top;
+  });
+  const double height = geometry::extent(*shape).z();
+  const double own = tissue.young_modulus / (1.0 + layer.poisson_ratio);
+  double reached = slabs.front().first->top;
+  for (const auto& [slab, substance] : slabs) {
+    if (slab->top < reached)
+      layer.below.push_back({(reached - slab->top) / height, 1.0, layer.poisson_ratio});
+    const double nu = substance->poisson_ratio;
+    layer.below.push_back(
+        {(slab->top - slab->bottom) / height, substance->young_modulus / (1.0 + nu) / own, nu});
+    reached = slab->bottom;
+  }
+  if (reached > 0.0) layer.below.push_back({reached / height, 1.0, layer.poisson_ratio});
+  return layer;
+}
+
+bool all_slabs(const scenario::Resolved& scenario) {
+  return std::all_of(scenario.regions.begin(), scenario.regions.end(), [](const auto& region) {
+    return std::holds_alternative<scenario::Slab>(region.part);
+  });
+}
+
+bool several_tissues(const scenario::Resolved& scenario) {
+  return std::any_of(scenario.regions.begin(), scenario.regions.end(), [&](const auto& region) {
+    return std::holds_alternative<scenario::Lump>(region.part) ||
+           region.young_modulus != scenario.tissue.young_modulus ||
+           region.poisson_ratio != scenario.tissue.poisson_ratio;
+  });
+}
+
+contact::LayerContact make_layer(const scenario::Resolved& scenario, const Finger& finger,
+                                 contact::LayerLaw law) {
+  // With calibration "force" the spheres share the layer law of the single sphere they replace.
+  const bool as_one = scenario.finger.calibration == finger::Calibration::force;
+  return {.radius = as_one ? finger.whole.radius : finger.sphere_radius,
+          .modulus = as_one ? finger.whole.modulus : finger.sphere_modulus,
+          .thickness = geometry::extent(*parametric(scenario.tissue.shape)).z(),
+          .law = std::move(law)};
+}
+
+namespace {
+
+constexpr double gravity = 9.80665;  // m/s^2, standard
+
+// (2 - nu) / G of one body, 1/Pa.                                      docs/theory.md [cattaneo]
+double shear_term(const contact::Elastic& body) {
+  return (2.0 - body.poisson_ratio) * 2.0 * (1.0 + body.poisson_ratio) / body.young_modulus;
+}
+
+}  // namespace
+
+Finger make_finger(const scenario::Resolved& scenario) {
+  const scenario::Resolved::Finger& asked = scenario.finger;
+  const contact::Elastic tissue{scenario.tissue.young_modulus, scenario.tissue.poisson_ratio};
+  const double lambda_1 = asked.elastic ? asked.elastic->compliance() : 0.0;
+  const double lambda_2 = tissue.compliance();
+  const double modulus = contact::hertz::effective_modulus(lambda_1, lambda_2);
+
+  Finger finger;
+  const double volume = 4.0 / 3.0 * std::numbers::pi * asked.radius * asked.radius * asked.radius;
+  if (asked.spheres == 1) {
+    finger.sphere_radius = asked.radius;
+    finger.centres = {Vec3::Zero()};
+  } else {
+    const finger::Layer layer =
+        finger::pack(geometry::fingertip(volume), asked.density, asked.spheres);
+    finger.sphere_radius = layer.radius;
+    finger.centres = layer.centres;
+  }
+  const double factor = finger::modulus_factor(asked.calibration, asked.spheres);
+  finger.sphere_modulus = modulus * factor;
+  finger.force_factor = factor / finger::modulus_factor(finger::Calibration::force, asked.spheres);
+  finger.whole = {asked.radius, modulus};
+  finger.compliance_share = lambda_1 / (lambda_1 + lambda_2);
+  finger.shear_compliance = shear_term(tissue) + (asked.elastic ? shear_term(*asked.elastic) : 0.0);
+  // The calibration scales the tangential stiffness of a sphere like its normal force.
+  finger.shear_compliance /= factor;
+  if (asked.weight == scenario::PlainFinger::Weight::apart)
+    finger.weight = asked.density * volume * gravity;
+  return finger;
 }
 
 }  // namespace palpate::scene

@@ -1,5 +1,5 @@
 // Finds the first touch of the finger on the body as it is given.
-#include "scene/solid_body.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 #include "base/units.h"
 #include "contact/elliptic.h"
 #include "contact/hertz.h"
-#include "geometry/shape_touch.h"
+#include "geometry/shapes.h"
 #include "scenario/programme.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"

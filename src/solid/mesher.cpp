@@ -13,7 +13,6 @@
 #include "meshing/cgal_library.h"
 #include "meshing/surface_remeshing.h"
 #include "meshing/tetgen.h"
-#include "meshing/true_boundary.h"
 
 namespace palpate::solid {
 namespace {

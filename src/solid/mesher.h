@@ -9,7 +9,7 @@
 
 #include "geometry/shapes.h"
 #include "geometry/smooth_surface.h"
-#include "solid/mesh.h"
+#include "solid/elements.h"
 #include "solid/surface_net.h"
 
 namespace palpate::solid {

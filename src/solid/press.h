@@ -1,6 +1,8 @@
 // A solid under rigid indenters, in equilibrium.
 #pragma once
 
+#include <Eigen/SparseCore>
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -8,9 +10,90 @@
 #include <vector>
 
 #include "base/front_cholesky.h"
-#include "solid/contact.h"
+#include "solid/elements.h"
 
 namespace palpate::solid {
+
+// A rigid surface around its pole, the lower side of a finger: the quadric
+// 2 z = c_1 x^2 + c_2 y^2 + (c_1 + c_2) / 2 z^2 up to where it is upright, half a sphere where both
+// curvatures are equal.
+struct Indenter {
+  Vec3 pole = Vec3::Zero();           // m
+  std::array<double, 2> curvature{};  // 1/m along x and y, above 0 if it bulges down
+  // Of the body in the approach of two elastic bodies: the body meets a surface between the
+  // indenter and its own undeformed one, at this share of the way. 1 where the indenter is rigid.
+  double share = 1.0;
+
+  [[nodiscard]] static Indenter sphere(const Vec3& centre, double radius, double share = 1.0) {
+    return {centre - radius * Vec3::UnitZ(), {1.0 / radius, 1.0 / radius}, share};
+  }
+
+  // A place near the surface.
+  struct Meeting {
+    double depth = 0.0;  // m, inside the indenter: of a sphere exactly, else to first order
+    Vec3 normal;         // of the surface, on the body, unit
+    double bend = 0.0;   // 1/m, mean curvature there, of a sphere about its centre
+  };
+  // Nothing beyond where the surface is upright.
+  [[nodiscard]] std::optional<Meeting> at(const Vec3& place) const;
+  // m, from a place up to the surface, negative inside; nothing beyond it.
+  [[nodiscard]] std::optional<double> gap(const Vec3& place) const;
+  // Whether a place within `reach` (m) of `place` may be inside.
+  [[nodiscard]] bool near(const Vec3& place, double reach) const;
+};
+
+// What one indenter meets.
+struct Met {
+  Vec3 force = Vec3::Zero();  // N, on the body
+  double work = 0.0;          // N m, sum of the forces at the points times their overlap
+  double area = 0.0;          // m^2, undeformed, of the points in contact
+  double peak = 0.0;          // Pa, largest pressure at a point, on undeformed area
+};
+
+// A penalty pushes every integration point of a face (seven, exact to degree five) out of an
+// indenter, along its normal at the displaced point: pressure = stiffness * overlap. Of an indenter
+// with a share s, overlap = s depth + (1 - s) n . u, with the normal n of the undeformed face.
+//                                                                        docs/theory.md [penalty]
+class Contact {
+ public:
+  // `faces` are those that may be met, `stiffness` (Pa/m) is the penalty. `elements` must outlive
+  // this.
+  Contact(const Elements& elements, std::span<const OuterFace> faces, double stiffness);
+
+  // Adds the gradient and the second derivative of the penalty's energy at `displacement` (m).
+  // `steepest` (Pa) bounds the pressures in the part of the second derivative that can be negative.
+  void add(const Vector& displacement, std::span<const Indenter> indenters, double steepest,
+           Vector& force, Eigen::SparseMatrix<double>& stiffness, std::vector<Met>& met) const;
+
+  // J, whose gradient add() adds.
+  [[nodiscard]] double energy(const Vector& displacement,
+                              std::span<const Indenter> indenters) const;
+
+ private:
+  static constexpr std::size_t face_points = 7;
+  struct Own {
+    Face nodes{};
+    Vec3 middle = Vec3::Zero();               // m
+    double reach = 0.0;                       // m, of its corners from the middle
+    std::array<Vec3, face_points> places{};   // m
+    std::array<Vec3, face_points> normals{};  // outwards, unit
+    std::array<double, face_points> areas{};  // m^2
+    std::array<int, 171> entries{};           // lower triangle by rows, -1 where held
+  };
+  struct Overlap {
+    double depth = 0.0;  // m, above 0
+    Vec3 push;           // against its gradient
+    Vec3 normal;         // of the indenter
+    double bend = 0.0;   // 1/m
+  };
+  // Calls visit(face, point, indenter, overlap) for every overlap.
+  template <class Visit>
+  void for_each(const Vector& displacement, std::span<const Indenter> indenters,
+                const Visit& visit) const;
+
+  std::vector<Own> faces_;
+  double stiffness_ = 0.0;
+};
 
 // What a body and its supports are.
 struct Body {

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "base/eigen_pair.h"
 #include "base/index.h"
 #include "base/numerics.h"
 #include "base/text.h"

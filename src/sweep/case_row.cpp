@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fit/case_fits.h"
-#include "record/swept_column.h"
+#include "record/table.h"
 
 namespace palpate::sweep {
 namespace {

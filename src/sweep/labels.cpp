@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 #include "fit/model.h"
-#include "record/swept_column.h"
+#include "record/table.h"
 
 namespace palpate::sweep {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/files.h"
 #include "record/csv.h"
 #include "record/record.h"
-#include "record/swept_column.h"
+#include "record/table.h"
 #include "sweep/slurm.h"
 
 namespace palpate::sweep {

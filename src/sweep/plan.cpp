@@ -9,12 +9,12 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "base/document_writer.h"
+#include "base/document.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "base/whole_folder.h"
 #include "record/csv.h"
-#include "record/swept_column.h"
+#include "record/table.h"
 #include "run/choose.h"
 #include "run/share_out.h"
 #include "scene/scene.h"

@@ -2,7 +2,9 @@
 // each other, or a volume term is added to independent springs.
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "geometry/tet_mesh.h"
 #include "tissue/network.h"
@@ -49,5 +51,15 @@ void couple(Network& network, const geometry::TetMesh& mesh, std::span<const Iso
 // stiffness of the springs does not change.                      docs/theory.md [nodal_volume]
 void add_volume(Network& network, const geometry::TetMesh& mesh, std::span<const Isotropic> tissues,
                 Volume volume);
+
+// xx, yy, zz, xy, yz, xz of a symmetric tensor; shears are tensor components, half of the
+// engineering shear strain. Extension is positive.
+using Strain = std::array<double, 6>;
+
+// Small strain, constant in each tetrahedron: e = (H + H^T) / 2, where H is the gradient of the
+// displacement (m, one per node) over the rest shape. A rotation by the angle r appears as a strain
+// of about r^2 / 2. The tetrahedra must have positive volume. One entry per tetrahedron.
+[[nodiscard]] std::vector<Strain> small_strain(const geometry::TetMesh& mesh,
+                                               std::span<const Vec3> displacement);
 
 }  // namespace palpate::tissue

@@ -9,7 +9,6 @@
 #include "integrate/central_difference.h"
 #include "integrate/implicit.h"
 #include "integrate/modal.h"
-#include "integrate/tr_bdf2.h"
 #include "one_mass.h"
 
 namespace palpate {

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "contact/hertz.h"
 #include "mechanics/pressed_mesh.h"
-#include "mechanics/pressed_nodes.h"
+#include "mechanics/resolved_contact.h"
 #include "run/family.h"
 #include "run_text.h"
 #include "scene/contact_resolution.h"

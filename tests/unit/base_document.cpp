@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "base/document.h"
-#include "base/document_writer.h"
 #include "refusal.h"
 
 namespace palpate {

@@ -1,5 +1,5 @@
 // Unilateral points against every possible choice of who touches, and against closed answers.
-#include "contact/complementarity.h"
+#include "contact/balance.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,12 +1,11 @@
 // Several layers on each other: as one where they are alike, and where one of them is rigid.
-#include "contact/layer_stack.h"
+#include "contact/layer_integral.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "contact/layer.h"
-#include "contact/layer_sinking.h"
 #include "layer_at_chi.h"
 
 namespace palpate::contact {

@@ -1,5 +1,5 @@
 // The half-space's field under a contact: closed forms, and the laws of elasticity.
-#include "contact/patch_field.h"
+#include "contact/patch.h"
 
 #include <gtest/gtest.h>
 

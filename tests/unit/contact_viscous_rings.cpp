@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "contact/viscous_ring.h"
-#include "contact/viscous_stack.h"
+#include "contact/viscous_contact.h"
 
 namespace palpate::contact {
 namespace {

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "contact/hertz.h"
-#include "geometry/fingertip.h"
+#include "geometry/shapes.h"
 
 namespace palpate::finger {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/fingertip.h"
+#include "geometry/shapes.h"
 
 namespace palpate::geometry {
 namespace {

@@ -1,5 +1,5 @@
 // The touch in closed form against the same shapes as triangles.
-#include "geometry/shape_touch.h"
+#include "geometry/shapes.h"
 
 #include <gtest/gtest.h>
 

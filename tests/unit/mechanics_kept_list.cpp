@@ -1,9 +1,7 @@
 // Elements that leave a list leave their room in it, and nothing else.
-#include "mechanics/kept_list.h"
+#include "mechanics/contacts.h"
 
 #include <gtest/gtest.h>
-
-#include "mechanics/contacts.h"
 
 namespace palpate::mechanics {
 namespace {

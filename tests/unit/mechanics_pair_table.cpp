@@ -1,5 +1,5 @@
 // What is kept of pairs of vertices is what they would say anew, whatever has changed.
-#include "mechanics/pair_table.h"
+#include "mechanics/influence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What a node of the skin is to a sphere: areas, normals of the sides that face it, facets, and the
 // half-space's sinking under a node's own load.
-#include "mechanics/pressed_nodes.h"
+#include "mechanics/resolved_contact.h"
 
 #include <gtest/gtest.h>
 

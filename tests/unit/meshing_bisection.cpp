@@ -8,11 +8,9 @@
 #include <random>
 
 #include "geometry/cuboid.h"
-#include "meshing/level_cut.h"
 #include "meshing/mesh_check.h"
 #include "meshing/tetgen.h"
 #include "meshing/tetgen_body.h"
-#include "meshing/true_boundary.h"
 
 namespace palpate::meshing {
 namespace {

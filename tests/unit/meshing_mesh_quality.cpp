@@ -1,5 +1,5 @@
 // Measures of shape on tetrahedra whose angles and altitudes are known.
-#include "meshing/mesh_quality.h"
+#include "meshing/mesh_check.h"
 
 #include <gtest/gtest.h>
 

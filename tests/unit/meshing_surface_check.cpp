@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "geometry/cuboid.h"
-#include "meshing/surface_check.h"
+#include "meshing/surface_repair.h"
 
 namespace palpate::meshing {
 namespace {

@@ -15,8 +15,8 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "geometry/cuboid.h"
-#include "meshing/surface_check.h"
 #include "meshing/surface_files.h"
+#include "meshing/surface_repair.h"
 
 namespace palpate::meshing {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "geometry/body.h"
 #include "geometry/shapes.h"
-#include "meshing/surface_check.h"
-#include "meshing/tetgen_file.h"
+#include "meshing/surface_repair.h"
+#include "meshing/tetgen_body.h"
 #include "test_surfaces.h"
 #include "tetgen_calls.h"
 

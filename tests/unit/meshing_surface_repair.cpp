@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "geometry/shapes.h"
-#include "meshing/surface_check.h"
 #include "refusal.h"
 
 namespace palpate::meshing {

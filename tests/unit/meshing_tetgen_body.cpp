@@ -9,9 +9,8 @@
 #include <numbers>
 #include <set>
 
-#include "geometry/box_surface.h"
+#include "geometry/cuboid.h"
 #include "meshing/mesh_check.h"
-#include "meshing/mesh_quality.h"
 #include "tetgen_calls.h"
 
 namespace palpate::meshing {

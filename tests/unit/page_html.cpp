@@ -9,7 +9,6 @@
 #include "base/text.h"
 #include "page/page.h"
 #include "page/png.h"
-#include "page/style.h"
 #include "plot/gnuplot.h"
 #include "plot/palette.h"
 #include "temporary_folder.h"

@@ -9,7 +9,6 @@
 #include "tissue/network.h"
 #include "tissue/stable_step.h"
 #include "tissue/stiffness.h"
-#include "tissue/uniaxial.h"
 
 namespace palpate {
 namespace {

@@ -1,5 +1,5 @@
 // Numbers read off curves: the force at an indentation, half of the creep.
-#include "run/readings.h"
+#include "run/findings.h"
 
 #include <gtest/gtest.h>
 

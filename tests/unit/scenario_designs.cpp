@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "base/text.h"
+#include "scenario/design.h"
 #include "scenario/family.h"
-#include "scenario/sample_points.h"
 #include "scenario_text.h"
 
 namespace palpate::scenario {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "geometry/cuboid.h"
-#include "solid/contact.h"
+#include "solid/press.h"
 
 namespace palpate::solid {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "geometry/cuboid.h"
-#include "solid/body.h"
+#include "solid/finger_press.h"
 
 namespace palpate::solid {
 namespace {

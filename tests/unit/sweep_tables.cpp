@@ -1,7 +1,7 @@
 // Swept words as numbers with a unit, numbers as ranges, words for a shell.
 #include <gtest/gtest.h>
 
-#include "record/swept_column.h"
+#include "record/table.h"
 #include "sweep/plan_file.h"
 #include "sweep/slurm.h"
 

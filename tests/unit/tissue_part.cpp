@@ -1,5 +1,5 @@
 // Parts of a network: their rings, their edge, and what they keep of the whole.
-#include "tissue/part.h"
+#include "tissue/network.h"
 
 #include <gtest/gtest.h>
 

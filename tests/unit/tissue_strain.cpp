@@ -1,5 +1,5 @@
 // Strain of tetrahedra: linear fields exactly, turns of the body, who feels which node.
-#include "tissue/strain.h"
+#include "tissue/coupled.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
