@@ -149,7 +149,7 @@ TEST_F(RunStops, an_interrupt_of_a_press_does_not_lose_finished_cases) {
              "[tissue]\nmesh = { kind = \"kuhn\", cells = [16, 16, 12] }\n"
              "[solver]\nmodel = \"coupled_springs\"\nvolume = \"tetrahedron\"\n"
              "[[step]]\nkind = \"indent\"\nto = \"0.05 mm\"\nrate = \"0.05 mm/s\"\n"
-             "[output]\ninterval = \"20 ms\"\nfigures = false\nfits = false\n[sweep]\n"
+             "[output]\ninterval = \"2 ms\"\nfigures = false\nfits = false\n[sweep]\n"
              "\"step.1.to\" = [\"5 mm\", \"0.01 mm\", \"0.011 mm\", \"0.012 mm\"]\n");
   Running running({.arguments = {"run", "coupled.toml", "--jobs", "2"}, .folder = folder_.path()});
   const fs::path partial = folder_ / ("out/coupled.partial-" + std::to_string(running.id()));
