@@ -51,7 +51,8 @@ TEST_F(Messages, NamesOfFilesEndNoLine) {
   fs::create_directory(folder_ / name);
   write(name + "/scenario.toml", press);
   for (const char* verb : {"add", "check", "list", "add"}) {  // the second time it is refused
-    const test::Ended said = palpate("golden " + std::string(verb) + " '" + name + "/scenario.toml'");
+    const test::Ended said =
+        palpate("golden " + std::string(verb) + " '" + name + "/scenario.toml'");
     for (const std::string& text : {said.out, said.err})
       EXPECT_EQ(("\n" + text).find("\n::error"), std::string::npos) << text;
     EXPECT_NE((said.out + said.err).find("a\\x0a::error::b"), std::string::npos) << verb;
