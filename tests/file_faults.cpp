@@ -77,8 +77,10 @@ std::size_t at_most(std::size_t size) {
 
 int result(long code) { return static_cast<int>(code); }
 
+bool makes(int flags) { return (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE; }
+
 int opened(const char* name, int flags, mode_t mode) {
-  const bool changes = (flags & (O_CREAT | O_TRUNC)) != 0;
+  const bool changes = makes(flags) || (flags & O_TRUNC) != 0;
   if (fails(changes ? Call::changes : Call::reads, true)) return -1;
   return result(::syscall(SYS_openat, AT_FDCWD, name, flags, mode));
 }
@@ -105,10 +107,14 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
   if (fails(Call::changes)) return -1;
   return result(::syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
 }
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  if (fails(Call::changes)) return -1;
+  return result(::syscall(SYS_linkat, from_folder, from, to_folder, to, flags));
+}
 int open(const char* name, int flags, ...) {
   va_list more;
   va_start(more, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
+  const mode_t mode = palpate::test::makes(flags) ? va_arg(more, mode_t) : 0;
   va_end(more);
   return palpate::test::opened(name, flags, mode);
 }

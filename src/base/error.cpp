@@ -8,7 +8,8 @@
 namespace palpate {
 
 std::string Place::text() const {
-  std::string text = file;
+  std::string text;
+  for (const char c : file) text += c == '\n' ? std::string("\\x0a") : std::string(1, c);
   if (line > 0) text += ":" + std::to_string(line);
   if (line > 0 && column > 0) text += ":" + std::to_string(column);
   return text;

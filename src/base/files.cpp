@@ -148,7 +148,11 @@ class SignalsWait {
 void HeldFile::write(const std::string& path, std::string_view content, Disk disk) {
   const SignalsWait wait;
   const std::string temporary = path + ".part" + std::to_string(::getpid());
-  const int file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // Without a name until it is whole, so that SIGKILL leaves nothing; not every file system can.
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+  const bool unnamed = file >= 0;
+  if (!unnamed) file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) fail(path, temporary, errno);
   // Waits: a process that clears up may hold the new file for a moment. If the file system has no
   // locks, the file is written without one.
@@ -170,6 +174,11 @@ void HeldFile::write(const std::string& path, std::string_view content, Disk dis
     check(::fsync(file) == 0);
   else
     (void)::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
+  if (unnamed) {
+    ::unlink(temporary.c_str());
+    const std::string itself = "/proc/self/fd/" + std::to_string(file);
+    check(::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0);
+  }
   check(::rename(temporary.c_str(), path.c_str()) == 0);
   release();
   file_ = file;
@@ -212,6 +221,19 @@ void write_through(const std::string& path, std::string_view content) {
   if (::close(file) != 0) throw SystemError(path + " cannot be written: " + std::strerror(errno));
 }
 
+// Where links lead, also to a file that is not there yet: it is replaced, and not the link.
+std::string followed(const std::string& path) {
+  constexpr int most = 40;  // as Linux
+  std::filesystem::path at = path;
+  std::error_code none;
+  for (int links = 0; std::filesystem::is_symlink(at, none); ++links) {
+    if (links == most)
+      throw InputError({path, 0, 0}, "is a link that leads to itself; give another path");
+    at = at.parent_path() / std::filesystem::read_symlink(at, none);
+  }
+  return at.string();
+}
+
 }  // namespace
 
 void sync_file(const std::string& path) {
@@ -228,11 +250,7 @@ void write_atomically(const std::string& path, std::string_view content, Disk di
   if (exists && S_ISDIR(there.st_mode))
     throw InputError({path, 0, 0}, "is a folder, and a file is to be written; give its name");
   if (exists && !S_ISREG(there.st_mode)) return write_through(path, content);
-  // What a link points to is replaced, not the link.
-  std::error_code error;
-  const bool link = exists && ::lstat(path.c_str(), &there) == 0 && S_ISLNK(there.st_mode);
-  const std::string target = link ? std::filesystem::canonical(path, error).string() : path;
-  if (error) throw SystemError(path + " cannot be written: " + error.message());
+  const std::string target = followed(path);
   if (!exists) make_folders(std::filesystem::path(target).parent_path().string());
   HeldFile().write(target, content, disk);
 }

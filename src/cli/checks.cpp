@@ -14,7 +14,8 @@ std::string text_of(const compare::Check& check, bool headed, compare::Show show
   if (show == compare::Show::differing && check.equal()) return "";
   if (check.one_file)
     return compare::comparison_text(check.comparison.files.front().comparison, show);
-  return (headed ? check.name + (check.equal() ? ": equal\n" : ": DIFFERS\n") : "") +
+  return (headed ? compare::one_line(check.name) + (check.equal() ? ": equal\n" : ": DIFFERS\n")
+                 : "") +
          compare::comparison_text(check.comparison, show);
 }
 

@@ -469,10 +469,10 @@ void tell_cost(const scenario::Family& family, const Talk& talk) {
   if (!cost) return;
   const double of_a_case = cost->seconds / static_cast<double>(cost->cases);
   if (talk.json())
-    talk.event("sweep", {{"cases", std::to_string(cost->cases)},
-                         {"seconds", rounded_text(cost->seconds, 3)},
-                         {"seconds_of_a_case", rounded_text(of_a_case, 3)},
-                         {"row_bytes", rounded_text(cost->bytes, 3)}});
+    talk.event("sweep", {{"cases", cost->cases},
+                         {"seconds", rounded(cost->seconds, 3)},
+                         {"seconds_of_a_case", rounded(of_a_case, 3)},
+                         {"row_bytes", rounded(cost->bytes, 3)}});
   else
     print("\nby `palpate sweep`: " + std::to_string(cost->cases) + " cases, " + cost->text() +
           ", " + rounded_text(1e3 * of_a_case, 2) +

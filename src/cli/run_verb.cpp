@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 
@@ -77,7 +79,12 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
     return family.name + ": " + std::to_string(done) + " of " + std::to_string(scenes.size()) +
            (scenes.size() == 1 ? " case" : " cases");
   });
+  std::mutex one_at_a_time;
+  std::vector<std::vector<fit::NamedFit>> fits_of(scenes.size());
   const auto finished = [&](std::size_t i, const record::CaseRecord& record) {
+    if (family.base.output.fits && record.outcome != record::Outcome::interrupted)
+      fits_of[i] = fit::case_fits(scenes[i].scenario, record);
+    const std::lock_guard lock(one_at_a_time);
     folder.keep(i, record);
     ++done;
     talk.event("case", {{"scenario", family.name},
@@ -92,22 +99,19 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   ticker.reset();
   if (StopScope::stopped() && records.empty()) return {};
 
-  std::vector<fit::NamedFit> fits;
   Ran ran{.kept = records.size()};
   say_remarks(records, talk);
-  for (const record::CaseRecord& record : records) {
-    const auto scene = std::find_if(scenes.begin(), scenes.end(),
-                                    [&](const auto& one) { return one.name == record.name; });
-    if (family.base.output.fits)
-      for (fit::NamedFit& named : fit::case_fits(scene->scenario, record))
-        fits.push_back(std::move(named));
+  for (const record::CaseRecord& record : records)
     if (record.outcome == record::Outcome::diverged) {
       ran.diverged = true;
       Talk::error(family.name + ", case " + record.name + ": " + record.reason +
                   "; last stable time " + rounded_text(record.last_stable_time) +
                   " s, everything up to it is kept");
     }
-  }
+  std::vector<fit::NamedFit> fits;
+  for (std::vector<fit::NamedFit>& one : fits_of)
+    fits.insert(fits.end(), std::make_move_iterator(one.begin()),
+                std::make_move_iterator(one.end()));
   ran.missing = warn_all(folder.finish(records, fits, {arguments.given, started}), talk);
   for (const std::string& line : report::answer_lines(records)) talk.say(line);
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))

@@ -170,9 +170,9 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
             "); `palpate sweep run` runs them";
   talk.say(text + undrawn);
   talk.event("merged", {{"folder", folder.path()},
-                        {"cases", std::to_string(totals.cases)},
-                        {"completed", std::to_string(totals.completed)},
-                        {"missing", std::to_string(totals.missing)}});
+                        {"cases", totals.cases},
+                        {"completed", totals.completed},
+                        {"missing", totals.missing}});
   return exit_of(totals);
 }
 
@@ -260,12 +260,12 @@ int sweep_parts(const Sweep& command, const Talk& talk) {
     std::size_t cases = 0;
     for (std::size_t i = part - 1; i < plan.count(); i += as_index(command.of))
       if (!results.at(i).known()) ++cases;
-    std::vector<std::pair<std::string, std::string>> details{
-        {"command", call}, {"part", std::to_string(part)}, {"cases", std::to_string(cases)}};
+    std::vector<std::pair<std::string, Talk::Value>> details{
+        {"command", call}, {"part", part}, {"cases", cases}};
     if (cost) {
       const double share = static_cast<double>(cases) / static_cast<double>(plan.count());
-      details.emplace_back("seconds", rounded_text(share * cost->seconds, 3));
-      details.emplace_back("memory_bytes", rounded_text(cost->memory, 3));
+      details.emplace_back("seconds", rounded(share * cost->seconds, 3));
+      details.emplace_back("memory_bytes", rounded(cost->memory, 3));
     }
     talk.event("part", details);
   }
@@ -344,10 +344,10 @@ int sweep_run(const Sweep& command, const Talk& talk) {
   std::mutex telling;
   const auto event = [&](double seconds) {
     const std::scoped_lock lock(telling);
-    talk.event("progress", {{"done", std::to_string(now.done)},
-                            {"all", std::to_string(now.all)},
-                            {"failed", std::to_string(now.failed)},
-                            {"seconds", rounded_text(seconds)}});
+    talk.event("progress", {{"done", now.done},
+                            {"all", now.all},
+                            {"failed", now.failed},
+                            {"seconds", rounded(seconds)}});
   };
   const sweep::Clock::time_point start = sweep::Clock::now();
   sweep::SweepEnd end;
@@ -376,10 +376,10 @@ int sweep_run(const Sweep& command, const Talk& talk) {
                      cases_text(end.all) + " completed";
   if (end.failed > 0) text += ", " + std::to_string(end.failed) + " failed";
   if (end.missing > 0) text += ", " + std::to_string(end.missing) + " missing";
-  talk.event("end", {{"all", std::to_string(end.all)},
-                     {"completed", std::to_string(end.completed)},
-                     {"failed", std::to_string(end.failed)},
-                     {"missing", std::to_string(end.missing)}});
+  talk.event("end", {{"all", end.all},
+                     {"completed", end.completed},
+                     {"failed", end.failed},
+                     {"missing", end.missing}});
   if (end.interrupted && end.completed + end.failed < end.all) {
     Talk::error("palpate: interrupted; " + text + "; the same command continues from there");
     return exit_resumable;
@@ -413,14 +413,14 @@ int sweep_plan(const Sweep& command, const Talk& talk) {
   if (!command.reuse.empty())
     talk.say(planned.folder + ": " + std::to_string(planned.reused) + " of " + cases +
              " taken over from " + command.reuse);
-  std::vector<std::pair<std::string, std::string>> details{
+  std::vector<std::pair<std::string, Talk::Value>> details{
       {"folder", planned.folder},
-      {"cases", std::to_string(planned.cases)},
-      {"there_already", planned.there_already ? "true" : "false"}};
+      {"cases", planned.cases},
+      {"there_already", planned.there_already}};
   if (planned.forecast) {
-    details.emplace_back("seconds", rounded_text(planned.forecast->seconds, 3));
-    details.emplace_back("row_bytes", rounded_text(planned.forecast->bytes, 3));
-    details.emplace_back("memory_bytes", rounded_text(planned.forecast->memory, 3));
+    details.emplace_back("seconds", rounded(planned.forecast->seconds, 3));
+    details.emplace_back("row_bytes", rounded(planned.forecast->bytes, 3));
+    details.emplace_back("memory_bytes", rounded(planned.forecast->memory, 3));
   }
   talk.event("plan", details);
   return exit_good;

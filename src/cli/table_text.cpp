@@ -86,9 +86,9 @@ void print_result(const record::Table& table, const record::Table& for_eyes, con
   if (talk.json())
     print(json_lines(table));
   else if (talk.csv())
-    print(record::csv_text(table));
+    print_text(record::csv_text(table));
   else
-    print(aligned(for_eyes));
+    print_text(aligned(for_eyes));
 }
 
 }  // namespace palpate::cli

@@ -68,11 +68,12 @@ void Talk::progress(const std::string& line) const {
 }
 
 void Talk::event(const std::string& name,
-                 const std::vector<std::pair<std::string, std::string>>& details) const {
+                 const std::vector<std::pair<std::string, Value>>& details) const {
   if (!manner_.json) return;
   nlohmann::ordered_json object;
   object["event"] = name;
-  for (const auto& [key, value] : details) object[key] = value;
+  for (const auto& [key, value] : details)
+    std::visit([&, &name_of = key](const auto& one) { object[name_of] = one; }, value);
   print(object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
@@ -115,6 +116,10 @@ void ProgressLine::tick() {
     else
       talk_.say(line);
   }
+}
+
+double rounded(double value, int digits) {
+  return std::strtod(rounded_text(value, digits).c_str(), nullptr);
 }
 
 std::string warn_all(const std::vector<std::string>& warnings, const Talk& talk) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "cli/arguments.h"
@@ -25,8 +27,9 @@ class Talk {
   void progress(const std::string& line) const;
 
   // With --json, prints one JSON object on stdout: {"event": name, ...}.
+  using Value = std::variant<std::string, double, std::size_t, bool>;
   void event(const std::string& name,
-             const std::vector<std::pair<std::string, std::string>>& details) const;
+             const std::vector<std::pair<std::string, Value>>& details) const;
 
   // Whether progress() shows anything.
   [[nodiscard]] bool shows_progress() const { return terminal_ && !manner_.quiet && !manner_.json; }
@@ -41,6 +44,9 @@ class Talk {
   bool reader_ = false;    // stdout is a terminal
   bool colours_ = false;
 };
+
+// The number that rounded_text() writes.
+[[nodiscard]] double rounded(double value, int digits = 4);
 
 // Says all warnings. Returns what a verb's last line says of figures that were not drawn:
 // "; 2 figures were not drawn", or nothing.

@@ -160,13 +160,6 @@ Tolerances read_tolerances(const std::string& path) {
 
 namespace {
 
-// A name from a file as part of a line: it ends none, and is no command for a build server.
-std::string one_line(const std::string& name) {
-  std::string line;
-  for (const char c : name) line += c == '\n' ? std::string("\\x0a") : std::string(1, c);
-  return line.starts_with("::") ? "\\x3a" + line.substr(1) : line;
-}
-
 using record::Cell;
 using record::Table;
 using State = ColumnComparison::State;
@@ -309,6 +302,12 @@ Comparison compare(const Table& got, const Table& want, const Tolerances& tolera
   const std::string x = x_of(got, tube);
   for (ColumnComparison& column : comparison.columns) locate(column, got, x);
   return comparison;
+}
+
+std::string one_line(const std::string& name) {
+  std::string line;
+  for (const char c : name) line += c == '\n' ? std::string("\\x0a") : std::string(1, c);
+  return line.starts_with("::") ? "\\x3a" + line.substr(1) : line;
 }
 
 std::string comparison_text(const Comparison& comparison, Show show) {

@@ -88,6 +88,9 @@ struct Comparison {
 // Which columns a text lists: all of them, or those that differ.
 enum class Show { all, differing };
 
+// A name from a file as part of a line: it ends none, and is no command for a build server.
+[[nodiscard]] std::string one_line(const std::string& name);
+
 // One line per column with its worst row; each line ends with `\n`.
 [[nodiscard]] std::string comparison_text(const Comparison& comparison, Show show = Show::all);
 // The part of the line after the column's name: what differs, where, and both values.

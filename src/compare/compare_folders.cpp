@@ -140,10 +140,10 @@ std::string comparison_text(const FolderComparison& comparison, Show show) {
   for (const FileComparison& file : comparison.files) {
     if (show == Show::differing && file.equal()) continue;
     if (file.state != FileComparison::State::compared) {
-      text += file.file + ": " + verdict_text(file.state) + "\n";
+      text += one_line(file.file) + ": " + verdict_text(file.state) + "\n";
       continue;
     }
-    text += file.file + (file.comparison.equal() ? ": equal\n" : ": DIFFERS\n");
+    text += one_line(file.file) + (file.comparison.equal() ? ": equal\n" : ": DIFFERS\n");
     text += comparison_text(file.comparison, show);
   }
   return text;

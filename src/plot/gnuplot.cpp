@@ -247,6 +247,51 @@ std::string x_expression(const Series& series) {
   return condition.empty() ? "(" + x + ")" : "(" + condition + " ? " + x + " : NaN)";
 }
 
+// Many cases of one file: gnuplot reads it once and keeps the rows of these cases, each with its
+// place in a text of their names, for it would read the whole file for each of them.
+struct KeptRows {
+  std::string names = {};  // empty: each series reads its file
+
+  explicit KeptRows(const Figure& figure) {
+    constexpr std::size_t many = 8;
+    if (figure.series.size() <= many) return;
+    const Series& first = figure.series.front();
+    std::string all = "|";
+    for (const Series& one : figure.series) {
+      const bool plain = std::all_of(one.case_name.begin(), one.case_name.end(),
+                                     [](char c) { return c >= ' ' && c <= '~' && c != '|'; });
+      if (!plain || one.case_name.empty() || one.step || one.csv_file != first.csv_file ||
+          one.column != first.column || one.x_column != first.x_column ||
+          one.y_column != first.y_column)
+        return;
+      all += one.case_name + "|";
+    }
+    names = all;
+  }
+
+  [[nodiscard]] std::string text(const Figure& figure) const {
+    if (names.empty()) return {};
+    const Series& one = figure.series.front();
+    return "cases = " + gnuplot_quoted(names) +
+           "\nplace(name) = strstrt(cases, '|'.name.'|')\nset table $rows separator comma\nplot " +
+           gnuplot_quoted(one.csv_file) + " using (place(strcol(" + gnuplot_quoted(one.column) +
+           "))):(" + gnuplot_column(one.x_column) + "):(" + gnuplot_column(one.y_column) +
+           ") with table if (place(strcol(" + gnuplot_quoted(one.column) +
+           ")) > 0)\nunset table\nunset datafile columnheaders\n";
+  }
+
+  // What is plotted of a series, without `using` its y.
+  [[nodiscard]] std::string x_of(const Series& series) const {
+    if (names.empty())
+      return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(";
+    return "$rows using ($1 == " + std::to_string(names.find("|" + series.case_name + "|") + 1) +
+           " ? $2 : NaN):(";
+  }
+  [[nodiscard]] std::string y_of(const Series& series) const {
+    return scaled(series.scale, names.empty() ? gnuplot_column(series.y_column) : "$3");
+  }
+};
+
 // How a series is drawn: by its place in the list, or by its shade and its label.
 struct Look {
   std::string colour;
@@ -272,19 +317,17 @@ std::string point_style(std::size_t marker) {
          " pointsize 0.55 pointnumber 14";
 }
 
-std::string data_line(const Figure& figure, const Legend& legend, std::size_t i) {
+std::string data_line(const Figure& figure, const Legend& legend, const KeptRows& kept,
+                      std::size_t i) {
   const Series& series = figure.series[i];
   const Look look = look_of(figure, legend, i);
   const std::string width = figure.bar ? "1.8" : "3.5";
   // What was measured is drawn as points, what was computed as a line.
   if (series.y_column.starts_with("measured_"))
-    return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
-           scaled(series.scale, gnuplot_column(series.y_column)) +
-           ") with points linewidth 1.2 linecolor rgb '#" + look.colour +
-           "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
-  return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(" +
-         scaled(series.scale, gnuplot_column(series.y_column)) + ") with linespoints linewidth " +
-         width + " linecolor rgb '#" + look.colour + "'" + point_style(look.marker) +
+    return kept.x_of(series) + kept.y_of(series) + ") with points linewidth 1.2 linecolor rgb '#" +
+           look.colour + "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
+  return kept.x_of(series) + kept.y_of(series) + ") with linespoints linewidth " + width +
+         " linecolor rgb '#" + look.colour + "'" + point_style(look.marker) +
          (figure.bar || legend.lines == 0 ? " notitle" : " title " + gnuplot_quoted(label(series)));
 }
 
@@ -301,12 +344,13 @@ std::string fit_line(const Series& series, const FittedCurve& fit, const std::st
 
 std::string gnuplot_script(const Figure& figure) {
   const Legend legend(figure);
+  const KeptRows kept(figure);
   std::vector<std::string> lines;
   if (legend.lines > 0 && !figure.legend.empty())  // without a line of its own
     lines.push_back("keyentry with lines linecolor rgb '#ffffff' title " +
                     gnuplot_quoted(figure.legend));
   for (std::size_t i = 0; i < figure.series.size(); ++i)
-    lines.push_back(data_line(figure, legend, i));
+    lines.push_back(data_line(figure, legend, kept, i));
   if (figure.bar) {
     for (std::size_t k = 0; k < legend.labels.size() && legend.lines > 0; ++k)
       lines.push_back("keyentry with linespoints linewidth 1.8 linecolor rgb '#505050'" +
@@ -323,6 +367,7 @@ std::string gnuplot_script(const Figure& figure) {
                     gnuplot_quoted(figure.fit_label));
   const std::string plot = "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
   return gnuplot_head(figure.name, legend.height()) + frame(figure, legend) + functions(figure) +
+         kept.text(figure) +
          gnuplot_ticks(plot, std::string(figure.x_axis == Axis::linear ? "x" : "") +
                                  (figure.y_axis != Axis::linear ? ""
                                   : figure.from_zero            ? "y0"

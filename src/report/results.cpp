@@ -87,6 +87,48 @@ record::Table curve_table(const scenario::Family& family,
   return family.base.uniform() ? record::strain_table(records) : record::contact_table(records);
 }
 
+// The rows and findings of a record, without its maps and meshes.
+std::vector<record::CaseRecord> rows_of(const record::CaseRecord& record) {
+  std::vector<record::CaseRecord> rows(1);
+  rows[0].name = record.name;
+  rows[0].contact = record.contact;
+  rows[0].strain = record.strain;
+  rows[0].measured = record.measured;
+  rows[0].findings = record.findings;
+  return rows;
+}
+
+// The text of curve_table(), case after case: the table of all takes ten times the memory.
+std::string curve_text(const scenario::Family& family,
+                       const std::vector<record::CaseRecord>& records) {
+  std::string text;
+  for (const record::CaseRecord& record : records) {
+    const std::string one = record::csv_text(curve_table(family, rows_of(record)));
+    if (text.empty()) text.reserve(records.size() * one.size());
+    text += std::string_view(one).substr(text.empty() ? 0 : one.find('\n') + 1);
+  }
+  return text;
+}
+
+// Writes what a result has beside its tables, an interrupted one for a tenth of a second.
+class Extras {
+ public:
+  template <class Write>
+  void add(Write write) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!until_ && StopScope::stopped()) until_ = now + std::chrono::milliseconds(100);
+    if (until_ && now > *until_)
+      ++left_out_;
+    else
+      write();
+  }
+  [[nodiscard]] std::size_t left_out() const { return left_out_; }
+
+ private:
+  std::optional<std::chrono::steady_clock::time_point> until_;
+  std::size_t left_out_ = 0;
+};
+
 // Files with a few rows per case.
 CsvFiles short_files(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
                      const std::vector<fit::NamedFit>& fits) {
@@ -146,7 +188,7 @@ void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
   if (!cases_kept_) folder_.keep(name + "/findings.csv");  // written last
   cases_kept_ = true;
   make_folders(folder);
-  const std::vector<record::CaseRecord> one{record};
+  const std::vector<record::CaseRecord> one = rows_of(record);
   if (!record.contact.empty() && !grown_.contains("force_indentation.csv"))
     write_atomically(folder + "/force_indentation.csv",
                      record::csv_text(record::contact_table(one)), Disk::later);
@@ -157,33 +199,43 @@ void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
                    Disk::later);
 }
 
-void ResultFolder::write_tissue(const std::vector<record::CaseRecord>& records) {
+namespace {
+
+void write_tissue(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
+                  WholeFolder& folder, Extras& extras) {
   std::size_t number = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
     std::vector<TimedFile> series;
-    for (const record::TissueFrame& frame : records[i].frames) {
-      const std::vector<Strain> strain = tissue::small_strain(records[i].mesh, frame.displacement);
-      series.push_back({frame.time, numbered("tissue", ++number, ".vtu")});
-      folder_.write(series.back().file, vtu_bytes({.mesh = records[i].mesh,
-                                                   .time = frame.time,
-                                                   .displacement = frame.displacement,
-                                                   .contact_pressure = frame.contact_pressure,
-                                                   .strain = strain}));
-    }
+    for (const record::TissueFrame& frame : records[i].frames)
+      extras.add([&] {
+        const std::vector<Strain> strain =
+            tissue::small_strain(records[i].mesh, frame.displacement);
+        series.push_back({frame.time, numbered("tissue", ++number, ".vtu")});
+        folder.write(series.back().file, vtu_bytes({.mesh = records[i].mesh,
+                                                    .time = frame.time,
+                                                    .displacement = frame.displacement,
+                                                    .contact_pressure = frame.contact_pressure,
+                                                    .strain = strain}));
+      });
     if (!series.empty())
-      folder_.write(case_file("tissue", i, family_->cases.size(), ".pvd"), pvd_bytes(series));
+      folder.write(case_file("tissue", i, family.cases.size(), ".pvd"), pvd_bytes(series));
   }
 }
 
-void ResultFolder::write_pictures(const std::vector<record::CaseRecord>& records) {
-  if (!family_->base.output.picture) return;
-  const bool several = family_->cases.size() > 1;
+void write_pictures(const scenario::Family& family, const std::vector<record::CaseRecord>& records,
+                    WholeFolder& folder, Extras& extras) {
+  if (!family.base.output.picture) return;
+  const bool several = family.cases.size() > 1;
   for (std::size_t i = 0; i < records.size(); ++i)
     if (!records[i].picture.faces.empty())
-      folder_.write(case_file("scene", i, family_->cases.size(), ".svg"),
-                    scene_svg(records[i].picture,
-                              several ? family_->title + ": " + records[i].name : family_->title));
+      extras.add([&] {
+        folder.write(case_file("scene", i, family.cases.size(), ".svg"),
+                     scene_svg(records[i].picture,
+                               several ? family.title + ": " + records[i].name : family.title));
+      });
 }
+
+}  // namespace
 
 std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseRecord>& records,
                                               const std::vector<fit::NamedFit>& fits,
@@ -199,7 +251,7 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   if (grown_.contains(curve))
     folder_.add({curve});
   else
-    folder_.write(curve, record::csv_text(curve_table(*family_, records)));
+    folder_.write(curve, curve_text(*family_, records));
   for (const auto& [name, table] : short_files(*family_, records, fits))
     folder_.write(name, record::csv_text(table));
   for (const std::string& name : grown_)
@@ -209,27 +261,21 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
 
   const std::string hash = sha256(echo);
   std::size_t number = 0;
-  std::size_t left_out = 0;
-  // An interrupted run goes on with maps for a tenth of a second.
-  std::optional<std::chrono::steady_clock::time_point> until;
+  Extras extras;
   for (const record::CaseRecord& record : records)
-    for (const record::PressureMap& map : record.maps) {
-      const auto now = std::chrono::steady_clock::now();
-      if (!until && StopScope::stopped()) until = now + std::chrono::milliseconds(100);
-      if (until && now > *until) {
-        ++left_out;
-        continue;
-      }
-      const std::string name = numbered("pressure", ++number, "");
-      folder_.write(name + ".exr", exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
-      if (family_->base.output.png)
-        plot::draw(map_sheet(map, name), folder_, warnings, {.formats = {"png"}});
-    }
-  if (left_out > 0)
-    warnings.push_back(std::to_string(left_out) +
-                       " pressure maps were not written; run the scenario again");
-  write_tissue(records);
-  write_pictures(records);
+    for (const record::PressureMap& map : record.maps)
+      extras.add([&] {
+        const std::string name = numbered("pressure", ++number, "");
+        folder_.write(name + ".exr", exr_bytes(map, {{"palpate:scenarioSha256", hash}}));
+        if (family_->base.output.png)
+          plot::draw(map_sheet(map, name), folder_, warnings, {.formats = {"png"}});
+      });
+  write_tissue(*family_, records, folder_, extras);
+  write_pictures(*family_, records, folder_, extras);
+  if (extras.left_out() > 0)
+    warnings.push_back(std::to_string(extras.left_out()) +
+                       " of the pressure maps, meshes and pictures were not written; run the "
+                       "scenario again");
 
   std::vector<plot::Figure> figures;
   if (family_->base.output.figures) {
@@ -253,7 +299,7 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
                                   : CaseEntry::State::failed,
                               record.reason,
                               {{"run", record.seconds}}});
-  manifest.complete = records.size() == family_->cases.size() && left_out == 0;
+  manifest.complete = records.size() == family_->cases.size() && extras.left_out() == 0;
   folder_.write("run.json", manifest_text(manifest));
 
   using State = WholeFolder::State;

@@ -58,9 +58,6 @@ class ResultFolder {
   [[nodiscard]] const std::string& path() const { return folder_.path(); }
 
  private:
-  void write_tissue(const std::vector<record::CaseRecord>& records);
-  void write_pictures(const std::vector<record::CaseRecord>& records);
-
   const scenario::Family* family_;
   WholeFolder folder_;
   bool cases_kept_ = false;

@@ -2,7 +2,6 @@
 #include "run/family.h"
 
 #include <chrono>
-#include <mutex>
 #include <optional>
 
 #include "base/stop_scope.h"
@@ -67,7 +66,11 @@ record::CaseRecord run_case(const scene::Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   record::CaseRecord record = begin_case(scene);
   run_programme(scene, record);
-  add_findings(scene, record);
+  try {
+    if (record.outcome != record::Outcome::interrupted) add_findings(scene, record);
+  } catch (const Stopped& stopped) {
+    (void)end_early(record, record::Outcome::interrupted, stopped.what());
+  }
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
 }
@@ -84,15 +87,14 @@ std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished) {
   std::vector<std::optional<record::CaseRecord>> slots(scenes.size());
-  std::mutex one_at_a_time;
   share_out(scenes.size(), workers, [&](std::size_t i) {
     if (StopScope::stopped()) return;
     record::CaseRecord record = run_case(scenes[i]);
-    const std::lock_guard lock(one_at_a_time);
     finished(i, record);
     slots[i] = std::move(record);
   });
   std::vector<record::CaseRecord> records;
+  records.reserve(scenes.size());  // a growing vector would copy the maps
   for (auto& slot : slots)
     if (slot && slot->outcome != record::Outcome::interrupted) records.push_back(std::move(*slot));
   return records;

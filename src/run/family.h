@@ -35,8 +35,8 @@ void run_programme(const scene::Scene& scene, record::CaseRecord& record);
 [[nodiscard]] record::CaseRecord run_case(const scene::Scene& scene);
 
 // Runs the scenes and returns their records in the order of the scenes. `finished` is called after
-// each case, one call at a time, on the worker's thread. Where the thread's StopScope is stopped,
-// running cases end as interrupted; these and the cases not begun are left out of the result.
+// each case, on the worker's thread, with several calls at a time. Where the thread's StopScope is
+// stopped, running cases end as interrupted; these and the cases not begun are left out.
 [[nodiscard]] std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished);

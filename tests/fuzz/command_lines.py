@@ -56,8 +56,8 @@ explain s.toml
 explain mesh.toml --json
 explain sweep.toml
 explain tissue.young_modulus
-mesh mesh.toml --out m.node
-mesh b.stl --unit mm --out m.ply --force
+convert mesh.toml --out m.node
+convert b.stl --unit mm --out m.off --force
 data data.csv
 fit data.csv --x travel_mm --y force_N --model hertz --radius 5_mm --poisson 0.5
 fit data.csv other.csv --x 2 --y 3 --model hertz --radius 5_mm --poisson 0.5 --out f
@@ -72,13 +72,13 @@ sweep merge o/sweep_sweep --force --show peak_force_N
 sweep parts o/sweep_sweep --of 3 --json
 sweep slurm o/sweep_sweep --chunk 1 --time 01:00:00 --program p --prologue s.toml
 compare data.csv other.csv --tolerances tolerances.toml --report c.html --junit c.xml
-report o --quiet
-export o/s --to csv-si --out e --force
+open o --quiet
+convert o/s --to csv-si --out e --force
 device probe replay:data.csv
 device monitor replay:data.csv
 device stop mark10:nowhere
 reference half.toml --out truth
-bench mesh.toml --frames 2
+chart mesh.toml --frames 2
 chart half.toml --repeats 1 --out o
 stability mesh.toml --out o
 open o/s

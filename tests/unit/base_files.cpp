@@ -3,12 +3,15 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -187,6 +190,29 @@ TEST_F(Files, AFolderIsNoFileToWrite) {
         std::string(letters, 'x') + ": is too long for the name of a file; give a shorter one");
 }
 
+// In the middle of the file: the process is ended by the limit of its files' size.
+TEST_F(Files, AKillWhileAFileIsWrittenLeavesNothingBeside) {
+  const std::string folder = path_ + "_folder";
+  write_atomically(folder + "/file", "old");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::signal(SIGXFSZ, SIG_DFL);
+    try {
+      write_atomically(folder + "/file", std::string(10000, 'x'));
+    } catch (...) {
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(entries_of(folder), std::vector<std::string>{folder + "/file"});
+  EXPECT_EQ(read_text(folder + "/file"), "old");
+  std::filesystem::remove_all(folder);
+}
+
 TEST_F(Files, ALinkStaysAndItsFolderIsMade) {
   namespace fs = std::filesystem;
   const std::string folder = path_ + "_folder";
@@ -195,6 +221,16 @@ TEST_F(Files, ALinkStaysAndItsFolderIsMade) {
   write_atomically(folder + "/link", "two");
   EXPECT_TRUE(fs::is_symlink(folder + "/link"));
   EXPECT_EQ(read_text(folder + "/new/target"), "two");
+  // A chain of links to a file that is not there yet.
+  fs::create_symlink("link", folder + "/chain");
+  fs::remove_all(folder + "/new");
+  write_atomically(folder + "/chain", "three");
+  EXPECT_TRUE(fs::is_symlink(folder + "/chain"));
+  EXPECT_TRUE(fs::is_symlink(folder + "/link"));
+  EXPECT_EQ(read_text(folder + "/new/target"), "three");
+  fs::create_symlink("loop", folder + "/loop");
+  EXPECT_EQ(test::refusal([&] { write_atomically(folder + "/loop", "four"); }),
+            folder + "/loop: is a link that leads to itself; give another path");
   fs::remove_all(folder);
 }
 

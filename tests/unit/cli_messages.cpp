@@ -45,6 +45,20 @@ TEST_F(Messages, HaveNoControlCharacters) {
   EXPECT_EQ(said.err.find('\x1b'), std::string::npos);
 }
 
+// A build server obeys lines that begin with `::`, and folders may have any name.
+TEST_F(Messages, NamesOfFilesEndNoLine) {
+  const std::string name = "a\n::error::b";
+  fs::create_directory(folder_ / name);
+  write(name + "/scenario.toml", press);
+  for (const char* verb : {"add", "check", "list", "add"}) {  // the second time it is refused
+    const test::Ended said =
+        palpate("golden " + std::string(verb) + " '" + name + "/scenario.toml'");
+    for (const std::string& text : {said.out, said.err})
+      EXPECT_EQ(("\n" + text).find("\n::error"), std::string::npos) << text;
+    EXPECT_NE((said.out + said.err).find("a\\x0a::error::b"), std::string::npos) << verb;
+  }
+}
+
 TEST_F(Messages, OneOfEachClass) {
   const std::pair<std::string, std::string> cases[] = {
       {"[tissue]\nyoung_modulos = \"60 kPa\"\n",

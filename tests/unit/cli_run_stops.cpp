@@ -110,10 +110,55 @@ TEST_F(RunStops, an_interrupt_does_not_wait_for_all_maps) {
   running.send(SIGTERM);
   const Ended ended = running.wait();
   EXPECT_EQ(ended.code, 130);
-  EXPECT_TRUE(says(ended, "pressure maps were not written")) << ended.err;
+  EXPECT_TRUE(says(ended, "pressure maps, meshes and pictures were not written")) << ended.err;
   EXPECT_LT(maps(folder_ / "out/maps"), 30);
   EXPECT_EQ(palpate(folder_.path(), words).code, 0);
   EXPECT_EQ(maps(folder_ / "out/maps"), 30);
+}
+
+// Meshes of a finished case, too: the first of a hundred is written, and then few more.
+TEST_F(RunStops, an_interrupt_does_not_wait_for_all_meshes) {
+  write_file(folder_ / "meshes.toml",
+             "[tissue]\nmesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n"
+             "[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = \"indent\"\nto = \"0.1 mm\"\n"
+             "rate = \"1 mm/s\"\n[output]\ninterval = \"1 ms\"\nfigures = false\nreport = false\n"
+             "tissue = true\ntissue_at = \"rows\"\n");
+  const auto meshes = [&](const fs::path& folder) {
+    const std::set<std::string> names =
+        fs::exists(folder) ? names_in(folder) : std::set<std::string>();
+    return std::count_if(names.begin(), names.end(),
+                         [](const std::string& name) { return name.ends_with(".vtu"); });
+  };
+  Running running({.arguments = {"run", "meshes.toml"},
+                   .folder = folder_.path(),
+                   .set = {{"LD_PRELOAD", PALPATE_FILE_FAULTS}, {"PALPATE_TEST_WAIT_MS", "20"}}});
+  const fs::path partial = folder_ / ("out/meshes.partial-" + std::to_string(running.id()));
+  ASSERT_TRUE(running.until([&] { return meshes(partial) > 0; }));
+  running.send(SIGTERM);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_TRUE(says(ended, "meshes and pictures were not written")) << ended.err;
+  EXPECT_LT(meshes(folder_ / "out/meshes"), 50);
+  EXPECT_EQ(record::read_csv(folder_ / "out/meshes/force_indentation.csv").rows.size(), 101U);
+}
+
+// While one worker presses a long case, the other finishes short ones. What is found out of a
+// whole press takes iterations here, which the signal ends as well.
+TEST_F(RunStops, an_interrupt_of_a_press_does_not_lose_finished_cases) {
+  write_file(folder_ / "coupled.toml",
+             "[tissue]\nmesh = { kind = \"kuhn\", cells = [16, 16, 12] }\n"
+             "[solver]\nmodel = \"coupled_springs\"\nvolume = \"tetrahedron\"\n"
+             "[[step]]\nkind = \"indent\"\nto = \"0.05 mm\"\nrate = \"0.05 mm/s\"\n"
+             "[output]\ninterval = \"2 ms\"\nfigures = false\nfits = false\n[sweep]\n"
+             "\"step.1.to\" = [\"5 mm\", \"0.01 mm\", \"0.011 mm\", \"0.012 mm\"]\n");
+  Running running({.arguments = {"run", "coupled.toml", "--jobs", "2"}, .folder = folder_.path()});
+  const fs::path partial = folder_ / ("out/coupled.partial-" + std::to_string(running.id()));
+  ASSERT_TRUE(running.until([&] { return fs::exists(partial / "case_003/findings.csv"); }));
+  running.send(SIGTERM);
+  const Ended ended = running.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_TRUE(says(ended, "finished cases are kept")) << ended.err;
+  EXPECT_GE(record::read_csv(folder_ / "out/coupled/findings.csv").rows.size(), 2U);
 }
 
 TEST_F(RunStops, an_incomplete_result_is_run_again_without_force) {

@@ -160,6 +160,30 @@ TEST_F(Gnuplot, ScriptRunsByItself) {
   EXPECT_TRUE(fs::exists(folder_ + "/figure_force_indentation.svg"));
 }
 
+// The file of many cases is read once, and with the same curves as where each case reads it.
+TEST_F(Gnuplot, ReadsTheFileOfManyCasesOnce) {
+  const auto drawn = [&](const std::string& mark) {
+    record::Table table{{"case", "step", "indentation_mm", "force_N"}, {}};
+    std::vector<plot::Series> series;
+    for (int k = 1; k <= 12; ++k) {
+      const std::string name = "E" + mark + std::to_string(k);  // one begins another
+      for (int i = 0; i <= 20; ++i) table.rows.push_back({name, 1.0, 0.1 * i, 0.25 * k * i});
+      series.push_back({.case_name = name, .label = "case " + std::to_string(k)});
+    }
+    table.rows.push_back({"not drawn", 1.0, 1.0, 1e6});
+    write_atomically(folder_ + "/force_indentation.csv", record::csv_text(table));
+    const plot::Drawing drawing =
+        plot::draw(plot::sheet_of(figure_force_indentation(series)), folder_);
+    EXPECT_EQ(drawing.warning, "");
+    return read("figure_force_indentation.svg");
+  };
+  const std::string once = drawn(" ");
+  EXPECT_EQ(count(read("figure_force_indentation.gp"), "'force_indentation.csv'"), 1U);
+  const std::string each = drawn("|");
+  EXPECT_EQ(count(read("figure_force_indentation.gp"), "'force_indentation.csv'"), 12U);
+  EXPECT_EQ(once, each);
+}
+
 TEST_F(Gnuplot, StrangeNamesAreOnlyNames) {
   plot::Figure figure = force_figure(folder_);
   figure.series.resize(1);
