@@ -26,8 +26,8 @@ double number_of(const RawTable& table, const RawRow& row, const Column& column)
   // The words `inf` and `nan` mean a row without a number; digits beyond all doubles are an error.
   if (std::isinf(*number) && field.text.find_first_of("0123456789") != std::string::npos)
     throw InputError(place, out_of_range_text(field.text));
-  // SCPI: 9.9E37 is an overload, 9.91E37 no number; other instruments write the largest float.
-  if (std::isfinite(*number) && std::abs(*number) > 9.8e37)
+  // SCPI: 9.9E37 is an overload, 9.91E37 no number.
+  if (std::abs(*number) > 9.89e37 && std::abs(*number) < 9.92e37)
     throw InputError(place,
                      "`" + column.name + "` holds `" + field.text + "`, " + why_no_number("over"));
   return *number;
