@@ -161,8 +161,8 @@ void add_options(CLI::App& verb, Fit& fit) {
                   "prony: number of relaxation times; above 5 they are spaced in their logarithm")
       ->check(CLI::Range(1, 60));
   verb.add_flag("--liquid", fit.liquid, "prony: a liquid, which flows under load for ever");
-  verb.add_option("--ramp", fit.ramp, "prony: duration of the loading ramp, in the unit of x")
-      ->check(CLI::PositiveNumber);
+  verb.add_option("--ramp", fit.ramp, "relaxation: duration of the loading ramp, in the unit of x")
+      ->check(CLI::NonNegativeNumber);
   verb.add_option("--history", fit.history,
                   "prony: column of the strain or depth over time (creep: of the stress)");
   verb.add_option("--history-power", fit.history_power,

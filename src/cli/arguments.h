@@ -85,16 +85,17 @@ struct Fit {
   std::string base;           // of the layer: bonded or frictionless; empty: bonded
   int terms = 0;              // of prony; 0: not given
   bool liquid = false;        // of prony: flows under load for ever
-  double ramp = 0.0;          // of prony: duration of the ramp before the hold, in the unit of x
-  std::string history;        // of prony: column of the strain, or of the stress in creep
-  double history_power = 0;   // exponent of that column; 0: 1, or 3/2 of a depth under a force
-  std::string height;         // of a specimen between platens: strain is length / height
-  std::string diameter;       // of a round specimen: stress is force / area
-  std::string area;           // of its cross-section, otherwise
-  std::string platens;        // slippery (also empty) or bonded
-  int cycle = 0;              // of several loadings, from 1; 0: not given
-  bool toe = false;           // takes a toe off
-  std::string loading;        // compression or tension; empty: by the signs
+  // Of the ramp before a hold: its duration, in the unit of x; none: what the rows show.
+  std::optional<double> ramp;
+  std::string history;       // of prony: column of the strain, or of the stress in creep
+  double history_power = 0;  // exponent of that column; 0: 1, or 3/2 of a depth under a force
+  std::string height;        // of a specimen between platens: strain is length / height
+  std::string diameter;      // of a round specimen: stress is force / area
+  std::string area;          // of its cross-section, otherwise
+  std::string platens;       // slippery (also empty) or bonded
+  int cycle = 0;             // of several loadings, from 1; 0: not given
+  bool toe = false;          // takes a toe off
+  std::string loading;       // compression or tension; empty: by the signs
 };
 struct Data {
   static constexpr Word word{"data", "Say what is understood of a measured file"};

@@ -14,6 +14,7 @@
 #include "fit/contact_model.h"
 #include "fit/contact_warnings.h"
 #include "fit/fractional.h"
+#include "fit/loading_part.h"
 #include "fit/prony.h"
 #include "fit/step_origin.h"
 #include "fit/uniaxial.h"
@@ -210,11 +211,29 @@ fit::UniaxialTest::Loading loading_of(const Fit& command, const measured::Measur
   return Loading::unknown;
 }
 
-// Whether a column named as a stretch holds strains, which begin near 0 and not near 1.
-bool is_strain_below(const std::vector<double>& stretch) {
-  for (const double each : stretch)
-    if (std::isfinite(each)) return each < 0.3;
-  return false;
+// Nominal stress of true (Cauchy) stress, and the strain of a logarithmic one, where the columns
+// are named so: P = sigma / L of an incompressible specimen.
+void take_nominal(const measured::MeasuredCurve& curve, std::vector<double>& strain,
+                  std::vector<double>& stress, bool compression, std::vector<std::string>& notes) {
+  const auto named = [](const measured::MeasuredAxis& axis,
+                        std::initializer_list<const char*> words) {
+    const std::string name = lower_case(axis.column);
+    return std::any_of(words.begin(), words.end(),
+                       [&](const char* word) { return name.find(word) != std::string::npos; });
+  };
+  const double sign = compression ? -1.0 : 1.0;  // of a strain that is positive in compression
+  if (named(curve.x_axis, {"true strain", "true_strain", "log strain", "logarithmic", "hencky"})) {
+    const bool turned = *std::min_element(strain.begin(), strain.end()) >= 0.0;
+    for (double& each : strain) each = turned ? sign * std::expm1(sign * each) : std::expm1(each);
+    notes.push_back("`" + curve.x_axis.column + "` is taken as the logarithm of the stretch");
+  }
+  if (!named(curve.y_axis, {"true stress", "true_stress", "cauchy"})) return;
+  const bool turned = *std::min_element(strain.begin(), strain.end()) > -1e-3;
+  for (std::size_t i = 0; i < stress.size(); ++i)
+    stress[i] /= 1.0 + (turned ? sign : 1.0) * strain[i];
+  notes.push_back("`" + curve.y_axis.column +
+                  "` is the force per deformed area; divided by the stretch, as in an "
+                  "incompressible specimen, it is the nominal stress of the model");
 }
 
 // Fits stress over strain, force over strain or force over length, where the sizes of the specimen
@@ -243,7 +262,7 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
 
   std::vector<double> strain = curve.x;
   std::vector<double> stress = curve.y;
-  if (const bool negative = is_strain_below(strain); curve.x_axis.stretch && !negative) {
+  if (curve.x_axis.stretch) {
     for (double& each : strain) each -= 1.0;
     const auto far = [](double one, double other) { return std::abs(one) < std::abs(other); };
     const double most = *std::max_element(strain.begin(), strain.end(), far);
@@ -285,7 +304,11 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
   } else if (!command.platens.empty() && command.platens != "slippery") {
     refuse("`--platens` does not know `" + command.platens + "`; it is slippery or bonded");
   }
+  std::vector<std::string> notes;
+  take_nominal(curve, strain, stress, test.loading == fit::UniaxialTest::Loading::compression,
+               notes);
   fit::Fit result = fit::fit_uniaxial(strain, stress, test);
+  result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
   if (!test.shape_factor && command.platens.empty()) result.law += ", slippery platens";
   return result;
 }
@@ -321,6 +344,8 @@ void check_options(const Fit& command) {
   const std::initializer_list<std::string_view> adhesive{"jkr", "dmt", "adhesive"};
   const std::initializer_list<std::string_view> part{"hertz", "layer", "modulus", "neo_hookean",
                                                      "ogden", "yeoh",  "ogden3"};
+  const std::initializer_list<std::string_view> ramps{"prony", "prony_creep",
+                                                      "standard_linear_solid"};
   for (const Option& option :
        {Option{"--radius", !command.radius.empty(), contact, false, "\"11 mm\""},
         Option{"--tip", !command.tip.empty(), contact, false, "sphere"},
@@ -344,7 +369,7 @@ void check_options(const Fit& command) {
         Option{"--poisson", command.poisson_ratio >= 0, contact, true, "0.45"},
         Option{"--thickness", !command.thickness.empty(), {"layer"}, true, "\"5 mm\""},
         Option{"--base", !command.base.empty(), {"layer"}, false, "bonded"},
-        Option{"--ramp", command.ramp > 0.0, {"prony", "prony_creep"}, false, "0.5"},
+        Option{"--ramp", command.ramp.has_value(), ramps, false, "0.5"},
         Option{"--history", !command.history.empty(), {"prony", "prony_creep"}, false, "strain"},
         Option{"--history-power", command.history_power > 0, {"prony", "prony_creep"}, false, "1"},
         Option{"--terms", command.terms > 0, {"prony", "prony_creep"}, true, "2"}}) {
@@ -396,19 +421,18 @@ fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
 }
 
 // The series with its loading history: a step, a ramp, or a column of the same rows.
-fit::PronySeries series_of(const Fit& command, const measured::MeasuredCurve& curve) {
+fit::PronySeries series_of(const Fit& command, const measured::MeasuredCurve& curve, double ramp) {
   fit::PronySeries series;
   if (command.model == "prony_creep") series.kind = fit::PronySeries::Kind::creep;
   series.terms = command.terms;
   series.liquid = command.liquid;
-  series.history.ramp = command.ramp;
+  series.history.ramp = ramp;
   if (command.history.empty()) {
     if (command.history_power > 0)
       refuse("`--history-power` is the exponent of `--history`; name that column too");
     return series;
   }
-  if (command.ramp > 0.0)
-    refuse("`--ramp` and `--history` both give the loading; leave one of them out");
+  if (command.ramp) refuse("`--ramp` and `--history` both give the loading; leave one of them out");
   const measured::MeasuredColumn& history = curve.beside.front();
   const bool depth =
       history.axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension;
@@ -432,60 +456,164 @@ void refuse_long_times(const fit::Fit& result) {
 
 // Where time begins for the model: as asked, or at the step that the curve shows.
 fit::StepOrigin origin_of(const Fit& command, const measured::MeasuredCurve& curve) {
-  if (command.x_origin) return {*command.x_origin, {}, *command.x_origin};
+  if (command.x_origin) return {{*command.x_origin, command.ramp.value_or(0.0), *command.x_origin}};
   if (!command.history.empty()) return {};  // only differences of the times count
+  const std::span<const double> x = curve.x_written;
+  const std::span<const double> y = curve.y_written;
   using fit::AfterStep;
-  if (is_one_of(command.model, {"fractional_zener"})) {
-    const bool falls =
-        curve.y_written.size() < 2 || curve.y_written.back() < curve.y_written.front();
-    return fit::step_origin(curve.x_written, curve.y_written,
-                            falls ? AfterStep::falls : AfterStep::rises, 0.0);
+  if (command.model == "prony" || command.model == "standard_linear_solid")
+    return fit::step_origin(x, y, AfterStep::relaxes, command.ramp);
+  const bool rises = y.size() > 1 && y.back() >= y.front();
+  if (command.model == "spring_pot" || (command.model == "fractional_zener" && !rises)) {
+    fit::StepOrigin origin = fit::step_origin(x, y, AfterStep::relaxes, std::nullopt);
+    const auto [time, ramp, first] = origin.best;
+    if (ramp == 0.0) return origin;
+    origin.best = {time + 0.5 * ramp, 0.0, first};
+    origin.others = {{time, 0.0, first}, {time + ramp, 0.0, first}};
+    origin.sentence =
+        "the load rises from " + rounded_text(time) + " to " + rounded_text(time + ramp) +
+        "; the step is taken in the middle (Zapas and " +
+        "Phillips 1971), and the intervals contain steps at both ends; `prony` takes " +
+        "the ramp as it is";
+    return origin;
   }
-  if (is_one_of(command.model,
-                {"prony", "standard_linear_solid", "kelvin_voigt_recovery", "spring_pot"}))
-    return fit::step_origin(curve.x_written, curve.y_written, AfterStep::falls, command.ramp);
-  if (command.model == "prony_creep")
-    return fit::step_origin(curve.x_written, curve.y_written, AfterStep::rises, command.ramp);
+  if (command.model == "kelvin_voigt_recovery")
+    return fit::step_origin(x, y, AfterStep::recovers, 0.0);
+  if (command.model == "prony_creep" || command.model == "fractional_zener")
+    return fit::step_origin(x, y, AfterStep::rises, command.ramp.value_or(0.0));
   if (is_one_of(command.model, {"kelvin_voigt", "spring_pot_creep"}))
-    return fit::step_origin(curve.x_written, curve.y_written, AfterStep::rises_from_zero, 0.0);
+    return fit::step_origin(x, y, AfterStep::rises_from_zero, 0.0);
   return {};
 }
 
-fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& whole) {
-  const fit::StepOrigin origin = origin_of(command, whole);
-  measured::MeasuredCurve curve = whole;
-  const bool stepped = !origin.sentence.empty();
-  std::size_t early = 0;
-  for (double& each : curve.x_written)
-    if (each < origin.first) {
-      each = std::nan("");  // left out, and counted
-      ++early;
-    }
+// Relaxation with one time constant after a ramp: a Prony series of one term, with y_0 for y_1.
+fit::Fit solid_after_ramp(std::span<const double> x, std::span<const double> y,
+                          const fit::PronySeries& series, const fit::Options& options) {
+  fit::Fit result = fit::fit_prony(x, y, series, options);
+  fit::Estimate& jump = result.parameters[1];
+  jump.name = "y_0";
+  jump.initial += result.parameters[0].initial;
+  jump.estimate += result.parameters[0].estimate;
+  if (const std::vector<double>& v = result.covariance; v.size() == 9) {
+    const double t = (jump.ci95_high - jump.ci95_low) / (2.0 * jump.std_error);
+    jump.std_error = std::sqrt(v[0] + v[4] + 2.0 * v[1]);
+    jump.ci95_low = jump.estimate - t * jump.std_error;
+    jump.ci95_high = jump.estimate + t * jump.std_error;
+  }
+  result.parameters[2].name = "tau";
+  result.covariance.clear();  // of the series
+  return result;
+}
+
+// A fit of a curve over time, whose loading begins as given; of every row or of each `stride`th.
+fit::Fit fit_over_time(const Fit& command, const measured::MeasuredCurve& curve,
+                       const fit::Loading& loading, std::size_t stride = 1) {
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < curve.x_written.size(); i += stride) {
+    // Rows before the step are left out, and counted.
+    x.push_back(curve.x_written[i] < loading.first ? std::nan("") : curve.x_written[i]);
+    y.push_back(curve.y_written[i]);
+  }
   const fit::Options options{.x_unit = curve.x_axis.unit,
                              .y_unit = curve.y_axis.unit,
-                             .x_origin = origin.time,
+                             .x_origin = loading.time,
                              .residuals = fit::Residuals::correlated};
-  const auto said = [&](fit::Fit result) {
-    if (early > 0)
-      result.notes.insert(result.notes.begin(), std::to_string(early) +
-                                                    (early == 1 ? " point is" : " points are") +
-                                                    " left out: before the step");
-    if (stepped) result.notes.insert(result.notes.begin(), origin.sentence);
-    return result;
-  };
-  if (is_one_of(command.model,
-                {"hertz", "layer", "jkr", "dmt", "adhesive", "hertz_power_law", "hertz_solid"}))
-    return contact_fit(command, curve);
   for (const auto& [name, model] : {std::pair{"spring_pot", fit::Fractional::spring_pot},
                                     {"spring_pot_creep", fit::Fractional::spring_pot_creep},
                                     {"fractional_zener", fit::Fractional::zener}})
-    if (command.model == name)
-      return said(fit::fit_fractional(curve.x_written, curve.y_written, model, options));
+    if (command.model == name) return fit::fit_fractional(x, y, model, options);
+  const auto model = fit::find_model(command.model);
+  if (model == fit::Model::standard_linear_solid && loading.ramp > 0.0) {
+    fit::PronySeries series;
+    series.terms = 1;
+    series.history.ramp = loading.ramp;
+    return solid_after_ramp(x, y, series, options);
+  }
+  if (model) return fit::regress(x, y, *model, options);
+  return fit::fit_prony(x, y, series_of(command, curve, loading.ramp), options);
+}
+
+// Takes the rows of the recovery off a record of creep; returns how many there are.
+std::size_t take_off_recovery(std::vector<double>& y) {
+  std::vector<double> finite;
+  for (const double each : y)
+    if (std::isfinite(each)) finite.push_back(each);
+  if (finite.empty()) return 0;
+  const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
+  if (*most - finite[0] < finite[0] - *least) return 0;  // falls as it creeps
+  const std::size_t rows = fit::rows_before_fall(finite, 0.25);
+  std::size_t row = 0;
+  for (double& each : y)
+    if (std::isfinite(each) && ++row > rows) each = std::nan("");
+  return finite.size() - rows;
+}
+
+fit::Fit fitted_over_time(const Fit& command, const measured::MeasuredCurve& whole) {
+  measured::MeasuredCurve curve = whole;
+  const bool creeps = is_one_of(command.model, {"kelvin_voigt", "prony_creep", "spring_pot_creep"});
+  const std::size_t later = creeps ? take_off_recovery(curve.y_written) : 0;
+  fit::StepOrigin origin = origin_of(command, curve);
+  const bool relaxes = is_one_of(command.model, {"prony", "standard_linear_solid", "spring_pot"});
+  const fit::Limit limit = relaxes ? fit::limit_of(curve.y_written) : fit::Limit();
+  for (std::size_t i = limit.from; i < limit.to; ++i) curve.y_written[i] = std::nan("");
+  if (origin.after_level && origin.best.ramp == 0.0 && !origin.sentence.empty()) {
+    const std::size_t stride = 1 + curve.x_written.size() / 4000;
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < curve.x_written.size(); i += stride) {
+      x.push_back(curve.x_written[i]);
+      y.push_back(curve.y_written[i]);
+    }
+    origin = fit::refined(origin, x, y, [&](const fit::Loading& loading) {
+      return fit::misfit_of([&] { return fit_over_time(command, curve, loading, stride); });
+    });
+  }
+  fit::Fit result = fit_over_time(command, curve, origin.best);
+  double wider = 1.0;
+  for (const fit::Loading& other : origin.others) {
+    const fit::Fit there = fit_over_time(command, curve, other);
+    if (there.termination != fit::Termination::converged ||
+        there.parameters.size() != result.parameters.size())
+      continue;
+    for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+      fit::Estimate& one = result.parameters[i];
+      const double width = one.ci95_high - one.ci95_low;
+      one.ci95_low = std::min(one.ci95_low, there.parameters[i].ci95_low);
+      one.ci95_high = std::max(one.ci95_high, there.parameters[i].ci95_high);
+      wider = std::max(wider, (one.ci95_high - one.ci95_low) / width);
+    }
+  }
+  if (later > 0)
+    result.notes.insert(result.notes.begin(),
+                        std::to_string(later) +
+                            " points are left out: after the largest value, from which the curve "
+                            "falls as in a recovery; `kelvin_voigt_recovery` fits them");
+  if (limit.from < limit.to)
+    result.notes.insert(result.notes.begin(),
+                        std::to_string(limit.to - limit.from) +
+                            " points are left out: the load stays at its largest value, as at the "
+                            "limit of a sensor");
+  const auto early = std::count_if(curve.x_written.begin(), curve.x_written.end(),
+                                   [&](double x) { return x < origin.best.first; });
+  if (early > 0)
+    result.notes.insert(result.notes.begin(), std::to_string(early) +
+                                                  (early == 1 ? " point is" : " points are") +
+                                                  " left out: before the step");
+  if (!origin.sentence.empty())
+    result.notes.insert(
+        result.notes.begin(),
+        origin.sentence +
+            (wider > 1.1 ? "; the rows leave it open by their distance, which the intervals contain"
+                         : ""));
+  return result;
+}
+
+fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
+  if (is_one_of(command.model,
+                {"hertz", "layer", "jkr", "dmt", "adhesive", "hertz_power_law", "hertz_solid"}))
+    return contact_fit(command, curve);
   if (is_one_of(command.model, {"modulus", "neo_hookean", "ogden", "yeoh", "ogden3"}))
     return uniaxial_fit(command, curve);
-  if (const auto model = fit::find_model(command.model))
-    return said(fit::regress(curve.x_written, curve.y_written, *model, options));
-  return said(fit::fit_prony(curve.x_written, curve.y_written, series_of(command, curve), options));
+  return fitted_over_time(command, curve);
 }
 
 std::string model_name(const fit::Fit& result) {

@@ -1,5 +1,6 @@
 // `palpate identify`: estimates tissue properties from a measured curve.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
@@ -8,6 +9,8 @@
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
+#include "fit/regression.h"
+#include "fit/step_origin.h"
 #include "identify/folder.h"
 #include "identify/givens.h"
 #include "identify/identify.h"
@@ -19,22 +22,67 @@
 namespace palpate::cli {
 namespace {
 
-// The loading history begins at time 0. A record whose clock begins later either leaves its
-// beginning out or counts from elsewhere, and only the user knows.
-void begin_with_programme(const Identify& command, measured::MeasuredCurve& curve) {
-  const bool time = curve.x_axis.dimension == Dimension{0, 0, 1};
-  if (command.x_origin) {
-    const double by = curve.x.front() == curve.x_written.front()
-                          ? *command.x_origin
-                          : *command.x_origin * (curve.x.back() - curve.x.front()) /
-                                (curve.x_written.back() - curve.x_written.front());
-    for (double& each : curve.x) each -= by;
-    return;
+// The step of a record of creep or relaxation, whose protocol is a step at time 0, and of a record
+// whose clock begins later than the ramp of its first step and that goes on after it. In s.
+std::optional<fit::StepOrigin> step_of(const scenario::Scenario& scenario,
+                                       const measured::MeasuredCurve& curve, bool late) {
+  using fit::AfterStep;
+  const scenario::Step& first = scenario.steps.front();
+  if (std::holds_alternative<scenario::Relax>(first))
+    return fit::step_origin(curve.x, curve.y, AfterStep::relaxes, 0.0);
+  if (const auto* creep = std::get_if<scenario::Creep>(&first)) {
+    const bool voigt = scenario.tissue.viscosity == tissue::Viscosity::kelvin_voigt;
+    const auto coarse = fit::step_origin(
+        curve.x, curve.y, voigt ? AfterStep::rises_from_zero : AfterStep::rises, 0.0);
+    if (!coarse.after_level || coarse.sentence.empty()) return coarse;
+    return fit::refined(coarse, curve.x, curve.y, [&](const fit::Loading& loading) {
+      std::vector<double> x = curve.x;  // under load
+      for (double& each : x)
+        if (each < loading.first || each >= loading.time + creep->load_time) each = std::nan("");
+      return fit::misfit_of([&] {
+        return fit::regress(x, curve.y,
+                            voigt ? fit::Model::kelvin_voigt : fit::Model::standard_linear_solid,
+                            {.x_origin = loading.time});
+      });
+    });
   }
-  if (!time || curve.x.size() < 2) return;
+  if (!late) return std::nullopt;
+  std::optional<double> ramp;
+  if (const auto* compress = std::get_if<scenario::Compress>(&first)) ramp = compress->ramp_time();
+  if (const auto* indent = std::get_if<scenario::Indent>(&first); indent && !indent->to.second)
+    ramp = indent->to.value / indent->rate;
+  const auto largest = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto peak = std::max_element(curve.y.begin(), curve.y.end(), largest);
+  if (!ramp || scenario.steps.size() > 2 || curve.y.end() - peak < 4) return std::nullopt;
+  return fit::step_origin(curve.x, curve.y, AfterStep::relaxes, *ramp);
+}
+
+// The loading history begins at time 0. Where the record shows its step, that is where it begins;
+// otherwise a clock that begins later either leaves the beginning out or counts from elsewhere, and
+// only the user knows.
+std::string begin_with_programme(const Identify& command, const scenario::Scenario& scenario,
+                                 measured::MeasuredCurve& curve) {
+  const bool time = curve.x_axis.dimension == Dimension{0, 0, 1};
+  const std::size_t last = curve.x.size() - 1;
+  const double per_unit =
+      last > 0 && curve.x.front() != curve.x_written.front()
+          ? (curve.x[last] - curve.x[0]) / (curve.x_written[last] - curve.x_written[0])
+          : 1.0;
+  const auto shift = [&](double by) {
+    for (double& each : curve.x) each -= by;
+  };
+  if (command.x_origin) {
+    shift(*command.x_origin * per_unit);
+    return {};
+  }
+  if (!time || curve.x.size() < 2) return {};
   const double first = curve.x.front();
-  const double gap = curve.x[1] - curve.x[0];
-  if (first <= gap * (1.0 + 1e-9)) return;
+  const bool late = first > (curve.x[1] - curve.x[0]) * (1.0 + 1e-9);
+  if (const auto step = step_of(scenario, curve, late)) {
+    shift(step->best.time);
+    return step->sentence + (step->sentence.empty() || per_unit == 1.0 ? "" : ", in s");
+  }
+  if (!late) return {};
   const std::string begins = rounded_text(curve.x_written.front());
   throw InputError({curve.file, 0, 0},
                    "its first row is at " + begins + " " + curve.x_axis.unit +
@@ -45,7 +93,7 @@ void begin_with_programme(const Identify& command, measured::MeasuredCurve& curv
 }
 
 identify::Measurement read_measurement(const Identify& command, const std::string& data,
-                                       const Talk& talk) {
+                                       const scenario::Scenario& scenario, const Talk& talk) {
   measured::MeasuredCurve curve = measured::read_measured(data, command.columns);
   const std::string where = command.with.empty() ? "note: " : "note: " + data + ": ";
   for (const std::string& note : curve.notes) talk.say(where + note);
@@ -53,7 +101,8 @@ identify::Measurement read_measurement(const Identify& command, const std::strin
     talk.say(where + "x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
   if (curve.x_axis.stretch)
     for (double& each : curve.x) each -= 1.0;
-  begin_with_programme(command, curve);
+  if (const std::string found = begin_with_programme(command, scenario, curve); !found.empty())
+    talk.say(where + found);
   return {.x = std::move(curve.x),
           .y = std::move(curve.y),
           .x_name = curve.x_axis.column,
@@ -122,7 +171,8 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   measured.reserve(asked.size());
   std::vector<identify::Pair> pairs;
   for (const identify::PairFiles& one : files) {
-    measured.push_back(read_measurement(command, one.measured, talk));
+    measured.push_back(
+        read_measurement(command, one.measured, one.family->cases.front().scenario, talk));
     pairs.push_back({&measured.back(), one.family});
   }
   identify::IdentifyOptions options;

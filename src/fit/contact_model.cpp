@@ -124,6 +124,8 @@ class ContactFit {
                                    : "the way back from the deepest row; `--segment retract` "
                                      "fits it");
     if (test_.way == Way::approach) {
+      if (const Limit limit = limit_of(f); limit.to == f.size())
+        keep(0, limit.from, "the force stays at its largest value, as at the limit of a sensor");
       const std::size_t whole = rows_before_break(f);
       fit_.gave_way = whole < f.size();
       keep(0, whole, "beyond the largest force, from which it falls by over 10 %");

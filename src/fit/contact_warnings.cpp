@@ -2,8 +2,11 @@
 #include "fit/contact_warnings.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/text.h"
+#include "contact/depth_ratio.h"
+#include "fit/residual_tests.h"
 
 namespace palpate::fit {
 namespace {
@@ -13,6 +16,24 @@ double error_of_hertz(double depth, double radius) {
   const Tip paraboloid{Tip::Kind::paraboloid, radius, 0.0};
   const Tip sphere{Tip::Kind::sphere, radius, 0.0};
   return tip_force(paraboloid, depth).force / tip_force(sphere, depth).force - 1.0;
+}
+
+// The force of a sphere on neo-Hookean tissue at the deepest row against the law fitted, minus 1; 0
+// where it is not known.                                                       docs/theory.md
+// [deep]
+double change_by_strain(const ContactResult& result) {
+  const ContactTest& test = result.test;
+  const bool round = test.tip == Tip::Kind::paraboloid || test.tip == Tip::Kind::sphere;
+  if (!round) return 0.0;
+  const auto ratio = contact::depth_ratio(
+      {.radius = test.radius,
+       .thickness = test.thickness.value_or(std::numeric_limits<double>::infinity()),
+       .poisson_ratio = test.poisson_ratio,
+       .base = test.base});
+  if (!ratio || result.deepest > ratio->last_depth()) return 0.0;
+  const double linear =  // of the paraboloid, to which the ratio refers
+      test.tip == Tip::Kind::sphere ? 1.0 + error_of_hertz(result.deepest, test.radius) : 1.0;
+  return ratio->value(result.deepest) * linear - 1.0;
 }
 
 std::string rows_text(std::size_t count) {
@@ -53,6 +74,12 @@ void warn_of_contact(Fit& fit, const ContactResult& result) {
            (test.thickness ? "; give a smaller depth by `--to`"
                            : "; give `--tip sphere`, or a smaller depth by `--to`"));
   }
+  if (const double change = change_by_strain(result); std::abs(change) > 0.02)
+    fit.notes.push_back(
+        "the law is that of small strains: in neo-Hookean tissue the force at the "
+        "largest depth is " +
+        percent_text(std::abs(change)) + (change < 0.0 ? " lower" : " higher") +
+        ", which `palpate identify` takes into account");
   warn_of_residuals(fit);
 }
 
@@ -62,15 +89,8 @@ void warn_of_residuals(Fit& fit) {
     warn("R^2 is " + rounded_text(fit.r2, 3) +
          ", so that the law describes the curve poorly, and the estimates mean little");
   if (fit.rho > 0.0)
-    warn("neighbouring residuals are correlated (" + rounded_text(fit.rho, 3) +
-         "), and the intervals count the " + std::to_string(fit.n) + " points as " +
-         rounded_text(std::max(1.0, fit.effective_size), 3) +
-         " independent ones; a law that does not fit has the same effect, and its bias is not in "
-         "the interval");
-  if (fit.rho > 0.0 && fit.effective_size < 10.0)
-    warn(
-        "the points are worth fewer than 10 independent ones, which cannot tell noise from a law "
-        "that does not fit; record a longer curve");
+    warn(correlation_sentence(fit.durbin_watson, static_cast<std::size_t>(fit.n),
+                              fit.effective_size));
 }
 
 }  // namespace palpate::fit

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "fit/step_origin.h"
 
@@ -51,6 +52,26 @@ OneWay one_way(std::span<const double> depth, Way way) {
       part = {branches[k].to - 1, branches[k + 1].to, part.loadings};
   }
   return part;
+}
+
+Limit limit_of(std::span<const double> y) {
+  const auto from = std::max_element(y.begin(), y.end());
+  auto to = from;
+  while (to != y.end() && *to == *from) ++to;
+  // The longest of the next two runs of equal values.
+  const auto longest = [](auto at, auto end) {
+    std::ptrdiff_t most = 0;
+    for (int k = 0; k < 2 && at != end; ++k) {
+      const auto next = std::find_if(at, end, [&](double each) { return each != *at; });
+      most = std::max<std::ptrdiff_t>(most, next - at);
+      at = next;
+    }
+    return most;
+  };
+  const std::ptrdiff_t beside =
+      std::max(longest(std::make_reverse_iterator(from), y.rend()), longest(to, y.end()));
+  if (to - from < 5 || to - from <= 3 * beside || beside == 0) return {y.size(), y.size()};
+  return {static_cast<std::size_t>(from - y.begin()), static_cast<std::size_t>(to - y.begin())};
 }
 
 std::size_t rows_before_break(std::span<const double> force) {

@@ -32,6 +32,14 @@ struct OneWay {
 };
 [[nodiscard]] OneWay one_way(std::span<const double> depth, Way way);
 
+// The rows [from, to) at which y stays at exactly its largest value, as at the limit of a sensor:
+// five or more, over three times as many as stay at any of the two values before and after. Empty
+// where there are none.
+struct Limit {
+  std::size_t from = 0, to = 0;
+};
+[[nodiscard]] Limit limit_of(std::span<const double> y);
+
 // The number of rows of a loading up to the largest force, where those beyond are lower on average
 // by more than a tenth of its rise and four deviations of its noise: the specimen gave way.
 // Otherwise all rows.

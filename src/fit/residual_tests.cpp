@@ -1,8 +1,11 @@
 // Durbin-Watson statistic and runs test.
 #include "fit/residual_tests.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/text.h"
 
 namespace palpate::fit {
 
@@ -46,6 +49,18 @@ bool systematic(std::span<const double> residuals) {
   // The variance of the Durbin-Watson statistic of independent residuals is about 4 / n.
   return n >= 10.0 && durbin_watson(residuals) < 2.0 - quantile * 2.0 / std::sqrt(n) &&
          runs_z(residuals) < -quantile;
+}
+
+std::string correlation_sentence(double durbin_watson, std::size_t points, double effective) {
+  return "neighbouring residuals are correlated (Durbin-Watson " + rounded_text(durbin_watson, 3) +
+         ", independent noise gives 2), by slow noise or by a law that does not fit. The intervals "
+         "count the " +
+         std::to_string(points) + " points as " + rounded_text(std::max(1.0, effective), 3) +
+         " independent ones, as slow noise wants; the bias of a wrong law is not in them" +
+         (effective < 10.0
+              ? ", and points worth fewer than 10 independent ones cannot tell the two "
+                "apart: record a longer curve"
+              : "");
 }
 
 }  // namespace palpate::fit

@@ -1,7 +1,9 @@
 // Tests of whether residuals are independent noise or follow a pattern.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <string>
 
 namespace palpate::fit {
 
@@ -15,5 +17,10 @@ namespace palpate::fit {
 
 // Whether both tests, each at a level of 1 in 1000, find neighbours correlated; false below 10.
 [[nodiscard]] bool systematic(std::span<const double> residuals);
+
+// What correlated residuals say of a fit to so many points, which are worth `effective` independent
+// ones: slow noise and a law that does not fit look alike.
+[[nodiscard]] std::string correlation_sentence(double durbin_watson, std::size_t points,
+                                               double effective);
 
 }  // namespace palpate::fit

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/numerics.h"
 #include "base/text.h"
 
 namespace palpate::fit {
@@ -30,6 +31,12 @@ struct Record {
   [[nodiscard]] double gap_after(std::size_t i) const {
     const std::size_t k = std::min(i, x.size() - 2);
     return x[k + 1] - x[k];
+  }
+  // A time with four digits of the record's length, which a clock that counts from elsewhere hides.
+  [[nodiscard]] std::string text(double time) const {
+    const double far = std::max(std::abs(x.front()), std::abs(x.back()));
+    const double more = std::log10(far / std::max({x.back() - x.front(), 1e-12 * far, 1e-300}));
+    return rounded_text(time, 4 + static_cast<int>(std::clamp(more, 0.0, 10.0)));
   }
 };
 
@@ -57,16 +64,20 @@ bool spaced_by_a_factor(const Record& record) {
   return *least > 1.05 && (*most - 1.0) < 2.0 * (*least - 1.0);
 }
 
-// The row of the largest |y|: the first that reaches it within the scatter.
-std::size_t row_of_peak(const Record& record, double noise) {
-  std::size_t far = 0;
-  for (std::size_t i = 0; i < record.y.size(); ++i)
-    if (std::abs(record.y[i]) > std::abs(record.y[far])) far = i;
-  const double sign = record.y[far] < 0.0 ? -1.0 : 1.0;
-  const double enough = sign * record.y[far] - 3.0 * noise;
-  for (std::size_t i = 0; i < far; ++i)
-    if (sign * record.y[i] >= enough) return i;
-  return far;
+// The rows of the largest |y|: the first and the last that reach it within the scatter.
+struct Peak {
+  std::size_t first = 0, last = 0;
+};
+Peak peak_of(const Record& record, double noise) {
+  double far = 0.0;
+  for (const double each : record.y)
+    if (std::abs(each) > std::abs(far)) far = each;
+  const auto reaches = [&](double y) {
+    return std::copysign(1.0, far) * y >= std::abs(far) - 3.0 * noise;
+  };
+  const auto first = std::find_if(record.y.begin(), record.y.end(), reaches);
+  const auto last = std::find_if(record.y.rbegin(), record.y.rend(), reaches);
+  return {as_index(first - record.y.begin()), as_index(record.y.rend() - last) - 1};
 }
 
 // The last row of the first level, from whose mean y goes on to differ in at least three rows. Only
@@ -89,44 +100,128 @@ std::size_t row_of_departure(const Record& record, double noise) {
   return i < 4 || i == size ? 0 : i - 1;
 }
 
-// Whether a slow start, and no level, lies before the departure.
-bool rises_from_the_first_row(const Record& record, std::size_t departure) {
+// Whether a slow start, and no level, lies before the departure: the third quarter of its rows is
+// above the first.
+bool rises_from_the_first_row(const Record& record, std::size_t departure, double noise) {
+  const std::size_t quarter = std::max<std::size_t>(departure / 4, 1);
+  double before = 0.0;
+  for (std::size_t i = 0; i < quarter; ++i)
+    before += (record.y[departure / 2 + i] - record.y[i]) / static_cast<double>(quarter);
   const double later = record.y[std::min(2 * departure, record.y.size() - 1)] - record.y[departure];
-  const double before = record.y[departure] - record.y[0];
-  return std::abs(before) > 0.3 * std::abs(later);
+  const double clear = 3.0 * noise * std::sqrt(2.0 / static_cast<double>(quarter));
+  return std::abs(before) > std::max(0.15 * std::abs(later), clear);
+}
+
+// The row from `from` to `to` that divides these rows, with `reach` more on either side, into two
+// straight lines of the least squares.
+std::size_t corner(const Record& record, std::size_t from, std::size_t to, std::size_t reach) {
+  const auto squares = [&](std::size_t begin, std::size_t end) {  // about their line
+    const auto n = static_cast<double>(end - begin);
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      x += record.x[i] / n;
+      y += record.y[i] / n;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      xx += (record.x[i] - x) * (record.x[i] - x);
+      xy += (record.x[i] - x) * (record.y[i] - y);
+      yy += (record.y[i] - y) * (record.y[i] - y);
+    }
+    return xx > 0.0 ? yy - xy * xy / xx : yy;
+  };
+  const std::size_t low = from - std::min(from, reach);
+  const std::size_t high = std::min(to + reach + 1, record.x.size());
+  std::size_t best = from;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = from; i <= to; ++i) {
+    const double sum = squares(low, i + 1) + squares(i, high);
+    if (!(sum < least)) continue;
+    least = sum;
+    best = i;
+  }
+  return best;
+}
+
+// The ramp before a hold, where at least one row lies between the first level and the peak. Without
+// a level the ramp began where the straight line through its ends is zero.
+std::optional<StepOrigin> ramp_before(const Record& record, const Peak& peak, double noise) {
+  const double top = record.y[peak.first];
+  const std::size_t level = row_of_departure(record, noise);
+  const double low = std::abs(record.y[level]);
+  const bool held = peak.first + 3 < record.x.size();
+  if (level + 2 > peak.first || !held || low > 0.8 * std::abs(top)) return std::nullopt;
+  const std::size_t reach = std::max<std::size_t>((peak.first - level) / 3, 3);
+  const std::size_t end =
+      corner(record, peak.first, std::min(peak.first + reach, record.x.size() - 3), reach);
+  const double to = record.x[end];
+  double from = record.x[level];
+  if (level == 0 && low > 5.0 * noise + 0.02 * std::abs(top))
+    from -= record.y[0] / (record.y[end] - record.y[0]) * (to - from);
+  const double by = record.gap_after(level);
+  const bool clock = std::abs(from) <= by;
+  if (clock) from = 0.0;
+  StepOrigin found;
+  found.best = {from, to - from, to};
+  // Its end may lie in the interval on either side of the row, its start in that after the level.
+  const double early = std::max(record.x[end - 1], from);
+  const double late = record.x[end + 1];
+  found.others = {{from, early - from, to},
+                  {clock ? from : from + by, late - from - (clock ? 0.0 : by), late}};
+  found.sentence = "the load rises from " + record.text(from) + " to " + record.text(to) +
+                   ", which is taken as a ramp at a constant rate, and the rows from its end on "
+                   "are fitted; `--ramp 0` takes a step, and `--history` a measured loading";
+  return found;
 }
 
 }  // namespace
 
 StepOrigin step_origin(std::span<const double> given_x, std::span<const double> given_y,
-                       AfterStep shape, double ramp) {
+                       AfterStep shape, std::optional<double> given_ramp) {
   const Record record = record_of(given_x, given_y);
   if (record.x.size() < 3) return {};
   const double noise = noise_of(record.y);
+  const double ramp = given_ramp.value_or(0.0);
+  const bool falls = shape == AfterStep::relaxes || shape == AfterStep::recovers;
   std::size_t row = 0;
-  if (shape == AfterStep::falls) {
-    row = row_of_peak(record, noise);
+  if (falls) {
+    const Peak peak = peak_of(record, noise);
+    row = peak.first;
+    if (shape == AfterStep::relaxes && !given_ramp)
+      if (auto found = ramp_before(record, peak, noise)) return *std::move(found);
+    // Creep that has come to its end before the recovery is as large for long.
+    if (shape == AfterStep::recovers && peak.last > peak.first + 3) {
+      std::size_t half = peak.last;
+      while (half + 1 < record.y.size() &&
+             std::abs(record.y[half]) > 0.5 * std::abs(record.y[peak.last]))
+        ++half;
+      const std::size_t reach = std::max<std::size_t>((half - peak.last) / 2, 3);
+      row = corner(record, peak.last - std::min(reach, peak.last - peak.first), peak.last, reach);
+    }
   } else {
     row = row_of_departure(record, noise);
-    if (row > 0 && rises_from_the_first_row(record, row)) row = 0;
+    if (row > 0 && rises_from_the_first_row(record, row, noise)) row = 0;
     // A jump lies after the last row of the level, which is none of the response.
     if (shape == AfterStep::rises && row > 0 &&
         std::abs(record.y[row + 1] - record.y[row]) > 10.0 * noise)
       ++row;
   }
-  const double at = record.x[row] - ramp;
-  const double first =
-      row > 0 && ramp == 0.0 ? record.x[row] : -std::numeric_limits<double>::infinity();
+  StepOrigin found;
+  found.after_level = !falls && row > 0;
+  found.best.ramp = ramp;
+  const double at = record.x[row] - (falls ? ramp : 0.0);
+  if (row > 0 && ramp == 0.0) found.best.first = record.x[row];
   const double gap = record.gap_after(row);
   const double before = row > 0 ? std::max(gap, record.x[row] - record.x[row - 1]) : gap;
   const double slack = 1e-9 * std::abs(record.x.back());
   // The clock's zero agrees with the curve.
-  if (at >= -gap - slack && at <= before + slack) return {0.0, {}, first};
-  if (ramp > 0.0 && row == 0 && record.x[0] >= -slack && record.x[0] <= gap + slack) return {};
-  if (row == 0 && spaced_by_a_factor(record))
-    return {0.0,
-            "the times are spaced by a factor, as those since a step, so that the step is taken at "
-            "0; `--origin` moves it"};
+  if (at >= -gap - slack && at <= before + slack) return found;
+  if (ramp > 0.0 && row == 0 && record.x[0] >= -slack && record.x[0] <= gap + slack) return found;
+  if (row == 0 && spaced_by_a_factor(record)) {
+    found.sentence =
+        "the times are spaced by a factor, as those since a step, so that the step is taken at 0; "
+        "`--origin` moves it";
+    return found;
+  }
   if (shape == AfterStep::rises_from_zero && row == 0) {
     double largest = 0.0;
     for (const double each : record.y) largest = std::max(largest, std::abs(each));
@@ -136,24 +231,110 @@ StepOrigin step_origin(std::span<const double> given_x, std::span<const double> 
                                "give the moment of the load by `--origin`, as `--origin " +
                                rounded_text(record.x[0] - gap) + "`");
   }
-  const std::string where = rounded_text(at);
-  if (ramp > 0.0)
-    return {at,
-            "the ramp is taken to begin at " + where +
-                ", its duration before the largest "
-                "value; `--origin` moves it",
-            first};
-  if (row == 0)
-    return {at,
-            "the record begins at " + where +
-                ", and its first row is taken as the step; `--origin` moves it",
-            first};
-  return {at,
-          std::string("the step is taken at ") + where +
-              (shape == AfterStep::falls ? ", where the curve is largest"
-                                         : ", where the curve leaves its first level") +
-              "; `--origin` moves it",
-          first};
+  found.best.time = at;
+  const std::string where = record.text(at);
+  if (ramp > 0.0) {
+    found.sentence = "the ramp is taken to begin at " + where +
+                     (falls ? ", its duration before the largest value"
+                            : ", where the curve leaves its first level") +
+                     "; `--origin` moves it";
+    return found;
+  }
+  // The step lies between two rows; a recovery may begin after the largest.
+  const double first = found.best.first;
+  found.others.push_back({row > 0 ? record.x[row - 1] : at - gap, 0.0, first});
+  if (shape == AfterStep::recovers && row > 0) found.others.push_back({at + gap, 0.0, at + gap});
+  found.sentence =
+      row == 0 ? "the record begins at " + where + ", and its first row is taken as"
+      : falls  ? "the step is taken at " + where + ", where the curve is largest"
+               : "the step is taken at " + where + ", where the curve leaves its first level";
+  found.sentence += row == 0 ? " the step; `--origin` moves it" : "; `--origin` moves it";
+  return found;
+}
+
+std::optional<Misfit> misfit_of(const std::function<Fit()>& fit) {
+  try {
+    const Fit found = fit();
+    if (found.termination != Termination::converged) return std::nullopt;
+    return Misfit{found.rmse * found.rmse * found.n,
+                  found.rho > 0.0 ? found.n / found.effective_size : 1.0,
+                  static_cast<int>(found.parameters.size())};
+  } catch (const InputError&) {  // too few rows
+    return std::nullopt;
+  }
+}
+
+StepOrigin refined(const StepOrigin& coarse, std::span<const double> given_x,
+                   std::span<const double> given_y,
+                   const std::function<std::optional<Misfit>(const Loading&)>& fit_after) {
+  const Record record = record_of(given_x, given_y);
+  const auto begin = record.x.begin();
+  const std::size_t row =
+      as_index(std::lower_bound(begin, record.x.end(), coarse.best.first) - begin);
+  struct At {
+    double squares = std::numeric_limits<double>::infinity();
+    Misfit fit;
+  };
+  const auto at = [&](double time) -> At {
+    const std::size_t rows = as_index(std::lower_bound(begin, record.x.end(), time) - begin);
+    const auto fit = fit_after({time, 0.0, time});
+    if (rows == 0 || !fit) return {};
+    double mean = 0.0, squares = fit->squares;
+    for (std::size_t i = 0; i < rows; ++i) mean += record.y[i] / static_cast<double>(rows);
+    for (std::size_t i = 0; i < rows; ++i) squares += (record.y[i] - mean) * (record.y[i] - mean);
+    return {squares, *fit};
+  };
+  // The rise is found late, by less than it takes to get half as high.
+  std::size_t half = row;
+  const auto height = [&](std::size_t i) { return std::abs(record.y[i] - record.y[0]); };
+  while (half + 1 < record.x.size() && height(half) < 0.5 * height(record.x.size() - 1)) ++half;
+  const double low = std::max(
+      record.x[1], record.x[row] - (record.x[half] - record.x[row]) - 3.0 * record.gap_after(row));
+  const double high = record.x[std::min(row + 2, half)];
+  constexpr int steps = 12;
+  const double step = (high - low) / steps;
+  StepOrigin found = coarse;
+  At best = at(coarse.best.first);
+  double time = coarse.best.first;
+  const auto keep = [&](double moment) {
+    const At here = at(moment);
+    if (here.squares < (1.0 - 1e-9) * best.squares) {
+      best = here;
+      time = moment;
+    }
+    return here.squares;
+  };
+  for (int i = 0; i <= steps; ++i) keep(low + i * step);
+  if (!std::isfinite(best.squares)) return coarse;
+  (void)numerics::minimum({std::max(low, time - step), std::min(high, time + step)}, keep);
+  const double degrees = static_cast<double>(record.x.size()) - best.fit.parameters - 2.0;
+  const double t = numerics::student_t_quantile(0.975, std::max(degrees, 1.0));
+  const double most = best.squares * (1.0 + t * t * best.fit.rows_each / std::max(degrees, 1.0));
+  const auto end = [&](double out) {
+    double in = time;
+    if (at(out).squares <= most) return out;
+    for (int i = 0; i < 10; ++i) {
+      const double middle = 0.5 * (in + out);
+      (at(middle).squares <= most ? in : out) = middle;
+    }
+    return in;
+  };
+  double earliest = end(low);
+  const double latest = end(high);
+  if (earliest == record.x[1])
+    earliest = record.x[0] - record.gap_after(0);  // or before the record
+  found.others.clear();
+  if (earliest <= 0.0 && latest >= 0.0) {  // the clock's zero agrees with the curve
+    found.best = {0.0, 0.0, 0.0};
+    found.sentence.clear();
+    return found;
+  }
+  found.best = {time, 0.0, time};
+  for (const double each : {earliest, latest}) found.others.push_back({each, 0.0, each});
+  found.sentence = "the step is taken at " + record.text(time) +
+                   " (95 %: " + record.text(earliest) + " to " + record.text(latest) +
+                   "), from which on the curve leaves its first level; `--origin` moves it";
+  return found;
 }
 
 }  // namespace palpate::fit

@@ -265,6 +265,13 @@ class UniaxialFit {
       up = std::max(up, each - stress_[0]);
       down = std::max(down, stress_[0] - each);
     }
+    if (const Limit limit = limit_of(stress_); limit.from < limit.to) {
+      const std::size_t size = stress_.size();
+      keep([&](std::size_t i) { return i < limit.from; });
+      leave_out(size - limit.from,
+                "the stress stays at its largest value, as at the limit of a sensor");
+      refuse_few();
+    }
     const std::size_t rows = rows_before_fall(stress_, fall_share);
     const bool falls = rows == stress_.size() ? stress_.back() < stress_.front() : down > 3.0 * up;
     if (falls)

@@ -50,6 +50,7 @@ struct Part {
   std::optional<ClosedCurve> closed;
   std::size_t from = 0, to = 0;  // its points among all
   double rows_each = 1.0;
+  DefaultBody body;
   Identification found;  // of this pair alone
 
   template <class T>
@@ -279,6 +280,7 @@ class Search {
       const scenario::Case at = part.curve->at(estimates_of(part));
       if (!part.found.closed_form || !part.family->cases.front().scenario.uniform())
         part.found.predicted_error = predicted_error(at);
+      part.body = default_body(*part.curve, *part.family, estimates_of(part));
     }
     found_.predicted_error = parts_.front().found.predicted_error;
   }
@@ -568,8 +570,7 @@ class Search {
     found.r2 = 1.0 - squares / total;
     found.unknowns = part.own(std::span<const Identified>(found_.unknowns));
     const std::vector<double> values = estimates_of(part);
-    if (const std::string body = default_body(*part.curve, *part.family, values); !body.empty())
-      note(part, body);
+    if (!part.body.text.empty()) note(part, part.body.text);
     const bool press = found.kind == CurveKind::force_travel || found.kind == CurveKind::force_time;
     if (press) found.deep_effect = deep_effect(part.curve->at(values));
     found.scenario = scenario::answered(part.family->cases.front(), part.curve->fixed());
@@ -591,7 +592,7 @@ class Search {
     std::vector<double> moved(n, 0.0);  // by every pair, whose errors may differ in sign
     std::vector<double> combined(found_.combinations.size(), 0.0);
     for (const Part& part : parts_) {
-      const double error = part.found.predicted_error.value_or(0.0);
+      const double error = part.found.predicted_error.value_or(0.0) + std::abs(part.body.change);
       std::vector<double> product(n, 0.0);
       for (std::size_t row = part.from; row < part.to; ++row)
         for (std::size_t i = 0; i < n; ++i)
@@ -616,7 +617,9 @@ class Search {
     }
     for (std::size_t i = 0; i < n; ++i) {
       Identified& one = found_.unknowns[i];
-      if (one.tied || one.at_bound || one.unknown.what == Unknown::What::force_offset) continue;
+      if (one.tied || one.at_bound || one.unknown.what == Unknown::What::force_offset ||
+          one.unknown.what == Unknown::What::force_tilt)
+        continue;
       const auto move = [&](std::optional<double>& end, double sign) {
         if (end) end = unknowns_[i].value(unknowns_[i].inverse(*end) + sign * moved[i]);
       };

@@ -41,9 +41,12 @@ class Preparation {
   }
 
   void check_pseudo_keys() {
-    if (unknown_of(Unknown::What::contact_point) != nullptr && kind_ != CurveKind::force_travel)
-      refuse("`--unknown contact_point` shifts a travel, and this curve is " +
-             std::string(words_of(kind_).sentence) + "; give force over travel, or leave it out");
+    for (const auto& [what, does] :
+         {std::pair{Unknown::What::contact_point, "contact_point` shifts a travel"},
+          {Unknown::What::force_tilt, "force_tilt` is the slope of a force over a travel"}})
+      if (unknown_of(what) != nullptr && kind_ != CurveKind::force_travel)
+        refuse("`--unknown " + std::string(does) + ", and this curve is " +
+               words_of(kind_).sentence + "; give force over travel, or leave it out");
     if (unknown_of(Unknown::What::force_offset) != nullptr &&
         (kind_ == CurveKind::strain_time || kind_ == CurveKind::stress_time ||
          kind_ == CurveKind::stress_strain))
@@ -149,6 +152,9 @@ class Preparation {
                     part.loadings > 1 ? "the way back, and other loadings"
                                       : "the way back from the deepest travel");
       count = part.to;
+      if (contact == nullptr)
+        found_.notes.push_back("contact is taken to begin at 0 of `" + measured_.x_name +
+                               "`; `--unknown contact_point=LOW..HIGH` fits it");
     }
     if (kind_ == CurveKind::stress_strain) {
       // A hold, whose strain is noisy, begins within a thousandth of the largest strain.
@@ -159,6 +165,11 @@ class Preparation {
       note_left_out(static_cast<int>(measured_.x.size() - count), "after the largest strain");
     }
     if (travel || kind_ == CurveKind::stress_strain) {
+      if (const fit::Limit limit = fit::limit_of({measured_.y.data(), count}); limit.to == count) {
+        note_left_out(static_cast<int>(count - limit.from),
+                      "the load stays at its largest value, as at the limit of a sensor");
+        count = limit.from;
+      }
       const auto whole = fit::rows_before_break({measured_.y.data(), count});
       note_left_out(static_cast<int>(count - whole),
                     "beyond the largest load, from which it falls by over 10 %");

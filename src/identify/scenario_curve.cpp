@@ -195,6 +195,7 @@ bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
   std::vector<double> values;
   double shift = shift_;
   double gain = 1.0;
+  double tilt = 0.0;
   double offset = kind_ == CurveKind::force_travel ? fixed_.contact.ambient_force : 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
     values.push_back(unknowns_[i].value(u[i]));
@@ -202,6 +203,7 @@ bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
     if (unknowns_[i].what == Unknown::What::force_delay) shift += values.back();
     if (unknowns_[i].what == Unknown::What::force_gain) gain = values.back();
     if (unknowns_[i].what == Unknown::What::force_offset) offset += values.back();
+    if (unknowns_[i].what == Unknown::What::force_tilt) tilt = values.back();
   }
   const auto model = rows(values);
   if (!model) return false;
@@ -211,7 +213,7 @@ bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
     const double at = x_[i] - shift;
     // Before the first row of a press there is no contact.
     if (at < x.front()) {
-      out[i] = grows ? offset : gain * model->y.front() + offset;
+      out[i] = (grows ? 0.0 : gain * model->y.front()) + offset + tilt * x_[i];
       continue;
     }
     const double end = x.back() + 1e-9 * std::abs(x.back()) + std::abs(shift_);  // 1e-9: rounding
@@ -226,7 +228,7 @@ bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
     const double before = grows ? even(model->y[k - 1]) : model->y[k - 1];
     const double after = grows ? even(model->y[k]) : model->y[k];
     const double between = before + part * (after - before);
-    out[i] = gain * (grows ? uneven(between) : between) + offset;
+    out[i] = gain * (grows ? uneven(between) : between) + offset + tilt * x_[i];
   }
   return true;
 }

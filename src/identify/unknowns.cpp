@@ -20,10 +20,11 @@ struct Extra {
   std::optional<Unit> unit;
   Range range;
 };
-const std::array<Extra, 4>& extras() {
-  static const std::array<Extra, 4> all{{
+const std::array<Extra, 5>& extras() {
+  static const std::array<Extra, 5> all{{
       {"contact_point", Unknown::What::contact_point, unit::mm, {}},
       {"force_offset", Unknown::What::force_offset, unit::N, {}},
+      {"force_tilt", Unknown::What::force_tilt, unit::N_per_m, {}},
       {"force_gain", Unknown::What::force_gain, std::nullopt, {.low = 0.0, .low_allowed = false}},
       {"force_delay", Unknown::What::force_delay, unit::s, {.low = 0.0, .low_allowed = true}},
   }};
@@ -89,7 +90,8 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
     refuse(text, "names no number of this scenario" +
                      (near ? "; did you mean `" + *near + "`?"
                            : "; `palpate manual` lists the keys, and `contact_point`, "
-                             "`force_offset`, `force_gain` and `force_delay` are accepted too"));
+                             "`force_offset`, `force_tilt`, `force_gain` and `force_delay` are "
+                             "accepted too"));
   }
   if (!known->use.used)
     refuse(text, "names a key that is used " + known->use.when +

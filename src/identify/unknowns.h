@@ -12,11 +12,10 @@
 namespace palpate::identify {
 
 struct Unknown {
-  enum class What { key, contact_point, force_offset, force_gain, force_delay };
+  enum class What { key, contact_point, force_offset, force_tilt, force_gain, force_delay };
   enum class Scale { linear, logarithmic };
 
-  std::string
-      key;  // of the scenario, or `contact_point`, `force_offset`, `force_gain`, `force_delay`
+  std::string key;  // of the scenario, or `contact_point`, `force_offset`, `force_tilt` and so on
   std::vector<std::size_t> pairs = {0};  // of data and scenario in which it is this one unknown
   bool separate = false;                 // of one pair among several: its name ends with `@N`
   What what = What::key;
@@ -43,8 +42,8 @@ struct Unknown {
 // one), a key that the scenario does not use, a bound of another dimension or beyond the key's
 // limits, bounds in the wrong order, and a key given twice. Of several scenarios a key is one
 // unknown in all that have it; what belongs to a test or its sensor (contact_point, force_offset,
-// force_gain, force_delay) is one unknown each. `KEY@2` is that of the second pair alone,
-// `KEY@each` one each, `KEY@all` one for all.
+// force_tilt, force_gain, force_delay) is one unknown each. `KEY@2` is that of the second pair
+// alone, `KEY@each` one each, `KEY@all` one for all.
 [[nodiscard]] std::vector<Unknown> read_unknowns(
     const std::vector<std::string>& texts, std::span<const scenario::Scenario* const> scenarios);
 [[nodiscard]] std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,

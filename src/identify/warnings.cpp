@@ -16,18 +16,11 @@ std::vector<std::string> warnings_of(const Identification& found,
                                      const scenario::Resolved& with) {
   std::vector<std::string> warnings;
   // Systematic residuals below a thousandth of the curve come from interpolation.
-  if (fit::systematic(residuals.values) && residuals.noise > 1e-3)
-    warnings.push_back(
-        "the model does not describe the data: neighbouring residuals are correlated "
-        "(Durbin-Watson " +
-        rounded_text(found.durbin_watson, 3) + ", noise gives 2). The intervals count the " +
-        std::to_string(found.x.size()) + " points as " +
-        rounded_text(std::max(1.0, found.effective_size), 3) +
-        " independent ones; the bias of a wrong model is not in them");
-  if (found.rho > 0.0 && found.effective_size < 10.0 && residuals.noise > 1e-3)
-    warnings.emplace_back(
-        "the points are worth fewer than 10 independent ones, which cannot tell noise from a law "
-        "that does not fit; record a longer curve");
+  const bool few = found.rho > 0.0 && found.effective_size < 10.0;
+  if ((fit::systematic(residuals.values) || few) && residuals.noise > 1e-3)
+    warnings.push_back(fit::correlation_sentence(
+        found.durbin_watson, found.x.size(),
+        found.rho > 0.0 ? found.effective_size : static_cast<double>(found.x.size())));
   if (found.r2 < 0.9)
     warnings.push_back("R^2 is " + rounded_text(found.r2, 3) +
                        ", so that the model describes the curve poorly, and the estimates mean "
@@ -59,17 +52,17 @@ std::vector<std::string> warnings_of(const Identification& found,
   return warnings;
 }
 
-std::string default_body(ScenarioCurve& curve, const scenario::Family& family,
+DefaultBody default_body(ScenarioCurve& curve, const scenario::Family& family,
                          std::span<const double> values) {
   const auto* box = std::get_if<scenario::Cuboid>(&curve.fixed().tissue.shape);
   const Member* tissue = family.document.find("tissue");
   const bool named = tissue != nullptr && tissue->value.find("shape") != nullptr;
-  if (box == nullptr || named || curve.fixed().uniform()) return "";
-  std::string text =
-      "the scenario names no `tissue.shape`, so that the body is the default block, ";
+  if (box == nullptr || named || curve.fixed().uniform()) return {};
+  DefaultBody body;
+  body.text = "the scenario names no `tissue.shape`, so that the body is the default block, ";
   for (std::size_t i = 0; i < 3; ++i)
-    text += (i > 0 ? " by " : "") + rounded_text(unit::mm.from_si(box->size[i]));
-  text += " mm";
+    body.text += (i > 0 ? " by " : "") + rounded_text(unit::mm.from_si(box->size[i]));
+  body.text += " mm";
   FixedRung half{.one = curve.at(values)};
   half.one.scenario.tissue.shape = scenario::HalfSpace{};
   half.one.scenario.solver.model = scenario::Model::hertz;
@@ -77,11 +70,15 @@ std::string default_body(ScenarioCurve& curve, const scenario::Family& family,
   const auto on_half = ScenarioCurve(curve.kind(), std::move(half), family, {}).rows({});
   if (on_block && on_half && on_half->y.back() > 0.0) {
     const double more = on_block->y.back() / on_half->y.back() - 1.0;
-    if (std::abs(more) > 0.02)
-      text += ", on which the force at the deepest is " + percent_text(std::abs(more)) +
-              (more > 0.0 ? " larger" : " smaller") + " than on a half-space";
+    if (std::abs(more) > 0.02) {
+      body.change = more;
+      body.text += ", on which the force at the deepest is " + percent_text(std::abs(more)) +
+                   (more > 0.0 ? " larger" : " smaller") +
+                   " than on a half-space, and the intervals are as much wider";
+    }
   }
-  return text + "; set it to that of the specimen";
+  body.text += "; set it to that of the specimen";
+  return body;
 }
 
 }  // namespace palpate::identify

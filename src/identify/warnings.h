@@ -22,9 +22,14 @@ struct WeightedResiduals {
                                                    const WeightedResiduals& residuals,
                                                    const scenario::Resolved& with);
 
-// On the default block where the scenario of a press names no body, and by how much a half-space
-// would change the force at the deepest, with these values of the unknowns (SI). Empty otherwise.
-[[nodiscard]] std::string default_body(ScenarioCurve& curve, const scenario::Family& family,
+// On the default block where the scenario of a press names no body, and by how much its force at
+// the deepest is above that of a half-space, with these values of the unknowns (SI), if by over 2
+// %. Empty otherwise. What nobody has said belongs to the intervals.
+struct DefaultBody {
+  std::string text;
+  double change = 0.0;
+};
+[[nodiscard]] DefaultBody default_body(ScenarioCurve& curve, const scenario::Family& family,
                                        std::span<const double> values);
 
 }  // namespace palpate::identify

@@ -26,6 +26,10 @@ double number_of(const RawTable& table, const RawRow& row, const Column& column)
   // The words `inf` and `nan` mean a row without a number; digits beyond all doubles are an error.
   if (std::isinf(*number) && field.text.find_first_of("0123456789") != std::string::npos)
     throw InputError(place, out_of_range_text(field.text));
+  // SCPI: 9.9E37 is an overload, 9.91E37 no number.
+  if (std::abs(*number) > 9.89e37 && std::abs(*number) < 9.92e37)
+    throw InputError(place,
+                     "`" + column.name + "` holds `" + field.text + "`, " + why_no_number("over"));
   return *number;
 }
 
@@ -33,7 +37,8 @@ MeasuredAxis axis_of(const Column& column) {
   MeasuredAxis axis;
   axis.column = column.name;
   axis.has_unit = column.unit.has_value();
-  axis.stretch = is_stretch(column.name) && (!column.unit || column.unit->text.empty());
+  axis.stretch =
+      is_stretch(column.name) && (!column.unit || column.unit->factor.dimension == Dimension{});
   if (axis.stretch) axis.has_unit = true;
   axis.mass = column.unit && is_mass(*column.unit);
   if (!column.unit) return axis;
@@ -91,6 +96,10 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
                                                       : value);
     }
   }
+  // A column named as a stretch may hold strains, which begin near 0 and not near 1.
+  const auto first =
+      std::find_if(curve.x.begin(), curve.x.end(), [](double each) { return std::isfinite(each); });
+  if (first != curve.x.end() && *first < 0.3) curve.x_axis.stretch = false;
   if (x.falls) curve.notes.push_back("`" + x.name + "` falls as the tip goes in; taken as a depth");
   curve.notes.insert(curve.notes.end(), rows.notes.begin(), rows.notes.end());
 }

@@ -19,7 +19,7 @@ namespace {
 
 bool says_nothing(const std::string& cell) {
   const std::string text = lower_case(cell);
-  for (const char* word : {"", "-", "--", "na", "n/a", "#n/a", "null", "none"})
+  for (const char* word : {"", "-", "--", "---", "na", "n/a", "#n/a", "null", "none"})
     if (text == word) return true;
   return false;
 }

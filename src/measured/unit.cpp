@@ -155,7 +155,8 @@ WrittenUnit unit_under(const std::string& name, const WrittenUnit& unit) {
 std::optional<WrittenUnit> written_unit(std::string_view given) {
   const std::string text = plain_micro(without_brackets(given));
   if (text.empty()) return std::nullopt;
-  if (text == "-" || text == "1") return WrittenUnit{"", {}};
+  for (const char* pure : {"-", "1", "in/in", "mm/mm", "m/m"})
+    if (text == pure) return WrittenUnit{"", {}};
   if (const auto factor = unit_factor(text)) return WrittenUnit{text, *factor};
   const std::string plain = plain_product(text);
   if (const auto factor = unit_factor(plain)) return WrittenUnit{plain, *factor};

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <random>
 
+#include "base/text.h"
 #include "program.h"
 #include "record/csv.h"
 
@@ -12,22 +15,54 @@ namespace {
 
 class FitCurves : public testing::Test {
  protected:
-  // The estimate of a parameter.
-  double estimate(const std::string& file, const std::string& parameter,
-                  const std::vector<std::string>& words) {
-    const Ended ended =
-        palpate(folder_.path(), {"fit", PALPATE_SOURCE_DIR "/tests/cases/curves/" + file}, words);
+  struct Range {
+    double estimate = std::nan(""), low = std::nan(""), high = std::nan("");
+    [[nodiscard]] bool holds(double truth) const { return low <= truth && truth <= high; }
+  };
+
+  // A parameter of the last fit.
+  Range of(const std::string& parameter) {
+    Range found;
+    const record::Table table = record::read_csv((folder_ / "fit.csv").string());
+    const auto cell = [&](const auto& row, const char* column) {
+      const auto* value = std::get_if<double>(&row[static_cast<std::size_t>(table.find(column))]);
+      return value == nullptr ? std::nan("") : *value;
+    };
+    for (const auto& row : table.rows)
+      if (row[static_cast<std::size_t>(table.find("parameter"))] == record::Cell(parameter))
+        found = {cell(row, "estimate"), cell(row, "ci95_low"), cell(row, "ci95_high")};
+    EXPECT_TRUE(std::isfinite(found.estimate)) << "no parameter " << parameter;
+    return found;
+  }
+
+  void fit(const std::string& path, const std::vector<std::string>& words) {
+    const Ended ended = palpate(folder_.path(), {"fit", path}, words);
     EXPECT_EQ(ended.code, 0) << ended.err;
     said_ = ended.err;
     write_file(folder_ / "fit.csv", ended.out);
-    const record::Table table = record::read_csv((folder_ / "fit.csv").string());
-    for (const auto& row : table.rows)
-      if (row[static_cast<std::size_t>(table.find("parameter"))] == record::Cell(parameter))
-        if (const auto* value =
-                std::get_if<double>(&row[static_cast<std::size_t>(table.find("estimate"))]))
-          return *value;
-    ADD_FAILURE() << "no parameter " << parameter;
-    return std::nan("");
+  }
+
+  // The estimate of a parameter.
+  double estimate(const std::string& file, const std::string& parameter,
+                  const std::vector<std::string>& words) {
+    fit(PALPATE_SOURCE_DIR "/tests/cases/curves/" + file, words);
+    return of(parameter).estimate;
+  }
+
+  // Writes a table of y(x) at x = i * step, with noise of a normal distribution.
+  void table(const std::string& head, int rows, double step, const std::function<double(double)>& y,
+             double noise) {
+    std::mt19937 engine(47);
+    std::normal_distribution<double> normal;
+    std::string text = head + "\n";
+    for (int i = 0; i < rows; ++i)
+      text +=
+          number_text(i * step) + "," + number_text(y(i * step) + noise * normal(engine)) + "\n";
+    write_file(folder_ / "made.csv", text);
+  }
+
+  [[nodiscard]] bool says(const std::string& text) const {
+    return said_.find(text) != std::string::npos;
   }
 
   TemporaryFolder folder_;
@@ -80,6 +115,148 @@ TEST_F(FitCurves, units_rates_and_titles) {
   said = data("07c_title.txt");
   for (const char* line : {"20 rows from line 4 to 23", "Time: min, a time", "Strain: %"})
     EXPECT_NE(said.find(line), std::string::npos) << said;
+}
+
+// The curve bends away from its level so slowly that its first clear row is 0.5 s late.
+TEST_F(FitCurves, a_creep_without_a_jump_begins_where_the_squares_are_least) {
+  table(
+      "Time (s),Strain", 120, 0.5,
+      [](double t) { return t < 8.03 ? 0.0 : 0.2 * (1.0 - std::exp(-(t - 8.03) / 8.0)); }, 0.005);
+  fit("made.csv", {"--model", "kelvin_voigt"});
+  EXPECT_TRUE(of("tau").holds(8.0)) << said_;
+  EXPECT_TRUE(of("y_inf").holds(0.2)) << said_;
+  EXPECT_TRUE(says("note: the step is taken at 8.0") || says("note: the step is taken at 7.9"))
+      << said_;
+}
+
+// sigma = 1 + 2 e^(-t/2) after a step that lies between two rows, 0.3 s before the first of them.
+TEST_F(FitCurves, a_step_between_two_rows_is_in_the_interval) {
+  table(
+      "Time (s),Stress (kPa)", 80, 0.5,
+      [](double t) { return t < 5.2 ? 0.0 : 1.0 + 2.0 * std::exp(-(t - 5.2) / 2.0); }, 0.02);
+  fit("made.csv", {"--model", "prony", "--terms", "1"});
+  EXPECT_TRUE(of("y_1").holds(2.0)) << said_;
+  EXPECT_TRUE(of("tau_1").holds(2.0)) << said_;
+  EXPECT_TRUE(says("the rows leave it open by their distance")) << said_;
+  fit("made.csv", {"--model", "prony", "--terms", "1", "--origin", "5.2"});
+  EXPECT_NEAR(of("y_1").estimate, 2.0, 0.06);  // four standard errors
+  EXPECT_TRUE(says("11 points are left out: before the step")) << said_;
+}
+
+// The same after a strain that grows from 3 to 5 s: the integral of the relaxation over the ramp.
+TEST_F(FitCurves, a_ramp_before_the_hold_is_found) {
+  const auto grown = [](double t) { return t < 0.0 ? 0.0 : t + 4.0 * (1.0 - std::exp(-t / 2.0)); };
+  table(
+      "Time (s),Stress (kPa)", 400, 0.1,
+      [&](double t) { return 0.5 * (grown(t - 3.0) - grown(t - 5.0)); }, 0.02);
+  fit("made.csv", {"--model", "prony", "--terms", "1"});
+  EXPECT_NEAR(of("y_1").estimate, 2.0, 0.1);  // the ramp is known to a row
+  EXPECT_TRUE(of("y_1").holds(2.0)) << said_;
+  EXPECT_TRUE(says("which is taken as a ramp at a constant rate")) << said_;
+  fit("made.csv", {"--model", "standard_linear_solid"});
+  EXPECT_TRUE(of("y_0").holds(3.0)) << said_;
+  EXPECT_TRUE(of("tau").holds(2.0)) << said_;
+  // Seen as a step at its end, the ramp leaves (1 - e^-1) of the amplitude.
+  fit("made.csv", {"--model", "prony", "--terms", "1", "--ramp", "0"});
+  EXPECT_NEAR(of("y_1").estimate, 2.0 * (1.0 - std::exp(-1.0)), 0.06);
+  // A spring-pot knows no ramp, and does not describe this curve.
+  fit("made.csv", {"--model", "spring_pot"});
+  EXPECT_TRUE(says("Zapas and Phillips 1971")) << said_;
+  EXPECT_TRUE(says("neighbouring residuals are correlated")) << said_;
+}
+
+// 1 + 3 (1 - e^(-t/5)) % from 2.07 to 42 s, which lie between rows.
+TEST_F(FitCurves, a_creep_with_a_jump_and_its_recovery) {
+  const auto grown = [](double t) { return t < 0.0 ? 0.0 : 4.0 - 3.0 * std::exp(-t / 5.0); };
+  table(
+      "time (s),strain (%)", 267, 0.3, [&](double t) { return grown(t - 2.07) - grown(t - 42.0); },
+      0.01);
+  fit("made.csv", {"--model", "prony_creep", "--terms", "1"});
+  EXPECT_TRUE(of("y_0").holds(1.0)) << said_;  // at the row after the step it is 1.02
+  EXPECT_GT(of("y_0").estimate, 1.01);
+  EXPECT_TRUE(of("tau_1").holds(5.0)) << said_;
+  EXPECT_TRUE(says("points are left out: after the largest value")) << said_;
+}
+
+// A ramp of a millionth of a second is a step, with the same errors.
+TEST_F(FitCurves, a_short_ramp_is_a_step) {
+  table(
+      "Time (s),Stress (kPa)", 100, 0.1, [](double t) { return 1.0 + 2.0 * std::exp(-t / 2.0); },
+      0.02);
+  fit("made.csv", {"--model", "standard_linear_solid", "--origin", "0"});
+  const Range step = of("y_0");
+  fit("made.csv",
+      {"--model", "standard_linear_solid", "--origin", "-0.000001", "--ramp", "0.000001"});
+  const Range ramp = of("y_0");
+  EXPECT_NEAR(ramp.estimate, step.estimate, 1e-5);
+  EXPECT_NEAR(ramp.low, step.low, 1e-4);
+  EXPECT_NEAR(ramp.high, step.high, 1e-4);
+}
+
+// At 0.7 radii the law of a paraboloid is some 8 % from a sphere on neo-Hookean tissue, that of a
+// sphere in linear elasticity 2 %: two errors that nearly cancel.
+TEST_F(FitCurves, what_large_strains_change) {
+  const auto hertz = [](double x) {  // 10 kPa, 2 mm, nu = 0.45, in N
+    return 4.0 / 3.0 * 10e3 / (1.0 - 0.45 * 0.45) * std::sqrt(2e-3) * std::pow(x * 1e-3, 1.5);
+  };
+  table("Depth (mm),Force (N)", 141, 0.01, hertz, 0.0);
+  const std::vector<std::string> words{"--model", "hertz", "--radius", "2 mm", "--poisson", "0.45"};
+  fit("made.csv", words);
+  EXPECT_TRUE(says("in neo-Hookean tissue the force at the largest depth is ")) << said_;
+  std::vector<std::string> sphere = words;
+  sphere.insert(sphere.end(), {"--tip", "sphere"});
+  fit("made.csv", sphere);
+  EXPECT_FALSE(says("in neo-Hookean tissue")) << said_;
+}
+
+TEST_F(FitCurves, a_sensor_at_its_limit) {
+  const auto hertz = [](double x) {  // 20 kPa, 5 mm, nu = 0.5, contact at 0.5 mm, in N
+    const double depth = std::max(x - 0.5, 0.0) * 1e-3;
+    return 4.0 / 3.0 * 20e3 / 0.75 * std::sqrt(5e-3) * std::pow(depth, 1.5);
+  };
+  const std::vector<std::string> words{"--model", "hertz", "--radius", "5 mm", "--poisson", "0.5"};
+  table(
+      "Displacement (mm),Force (N)", 300, 0.005, [&](double x) { return std::min(hertz(x), 0.05); },
+      0.0);
+  fit("made.csv", words);
+  EXPECT_NEAR(of("E").estimate, 20.0, 1e-3);  // without noise: rounding of the file
+  EXPECT_TRUE(says("left out: the force stays at its largest value")) << said_;
+  table(
+      "Displacement (mm),Force (N)", 300, 0.005,
+      [&](double x) { return x > 1.2 ? 9.9e37 : hertz(x); }, 0.0);
+  const Ended over = palpate(folder_.path(), {"fit", "made.csv"}, words);
+  EXPECT_EQ(over.code, 2);
+  EXPECT_EQ(
+      over.err,
+      "made.csv:243:7: `Force (N)` holds `9.9e+37`, which says that the instrument was "
+      "out of its range there; leave such rows out by `--rows` or `--where`, or delete them\n");
+}
+
+// P = E/3 (L - L^-2) with E = 12 kPa, in the ways in which laboratories write it.
+TEST_F(FitCurves, stretches_and_true_stresses) {
+  const auto nominal = [](double stretch) { return 4.0 * (stretch - 1.0 / (stretch * stretch)); };
+  std::vector<std::string> words{"--model", "neo_hookean"};
+  const auto young = [&](const std::string& head, double first, double last, const auto& y) {
+    std::string text = head + "\n";
+    for (int i = 0; i <= 50; ++i) {
+      const double x = first + (last - first) * i / 50.0;
+      text += number_text(x) + "," + number_text(y(x)) + "\n";
+    }
+    write_file(folder_ / "made.csv", text);
+    fit("made.csv", words);
+    return of("E").estimate;
+  };
+  EXPECT_NEAR(
+      young("stretch (%),stress (kPa)", 100.0, 150.0, [&](double x) { return nominal(x / 100.0); }),
+      12.0, 1e-3);
+  EXPECT_NEAR(young("stretch,stress (kPa)", 1.0, 0.6, nominal), 12.0, 1e-3);
+  EXPECT_NEAR(young("true strain (-),Cauchy stress (kPa)", 0.0, -0.5,
+                    [&](double x) { return std::exp(x) * nominal(std::exp(x)); }),
+              12.0, 1e-3);
+  words.insert(words.end(), {"--loading", "tension"});  // both columns are positive
+  EXPECT_NEAR(young("strain (-),true stress (kPa)", 0.0, 0.5,
+                    [&](double x) { return (1.0 + x) * nominal(1.0 + x); }),
+              12.0, 1e-3);
 }
 
 }  // namespace

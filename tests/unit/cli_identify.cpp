@@ -144,6 +144,36 @@ TEST_F(IdentifyVerb, DoesNotReplaceUnasked) {
   EXPECT_EQ(identify(words).code, 0) << "the same call as the first";
 }
 
+// Two levels and a step at 12 s of the machine's clock: sigma = 0.02 E (1 + e^(-t/0.5 s)) of 8 kPa.
+TEST_F(IdentifyVerb, FindsTheStepOfARelaxation) {
+  write_file(
+      folder_ / "relax.toml",
+      "[tissue]\nyoung_modulus = \"20 kPa\"\nshape = { kind = \"cuboid\", size = [\"30 mm\", "
+      "\"30 mm\", \"30 mm\"] }\nviscosity = \"standard_linear_solid\"\nrelaxation_time = \"1 s\"\n"
+      "instantaneous_ratio = 2\n[[step]]\nkind = \"relax\"\nstrain = 0.02\ntime = \"1.5 s\"\n");
+  std::string text = "Time (s),Stress (Pa)\n";
+  for (int i = 0; i < 120; ++i) {
+    const double t = 0.025 * (i - 60);
+    text += std::to_string(12.0 + t) + "," +
+            std::to_string((t < 0.0 ? 0.0 : 160.0 * (1.0 + std::exp(-t / 0.5))) +
+                           (i % 2 == 0 ? 1.0 : -1.0)) +
+            "\n";
+  }
+  write_file(folder_ / "relax.csv", text);
+  const Ended done = palpate(folder_.path(), {"identify", "relax.csv", "relax.toml", "--unknown",
+                                              "tissue.young_modulus=1..100 kPa", "--unknown",
+                                              "tissue.relaxation_time=0.05..5 s"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.err.find("note: the step is taken at 12, where the curve is largest"),
+            std::string::npos)
+      << done.err;
+  const record::Table table =
+      record::read_csv((folder_ / "out/relax_identified/identified.csv").string());
+  const auto estimate = static_cast<std::size_t>(table.find("estimate"));
+  EXPECT_NEAR(std::get<double>(table.rows.at(0)[estimate]), 8.0, 0.03);  // of the ripple
+  EXPECT_NEAR(std::get<double>(table.rows.at(1)[estimate]), 0.5, 0.01);
+}
+
 TEST_F(IdentifyVerb, RefusesInSentences) {
   const auto nothing = identify({"--unknown", "contact.friction=0.1..1"});
   EXPECT_EQ(nothing.code, 2);

@@ -35,13 +35,13 @@ Rows relaxation(double first, double step) {
 TEST(StepOrigin, OfARelaxation) {
   const auto at = [](double first, double step) {
     const Rows rows = relaxation(first, step);
-    return step_origin(rows.x, rows.y, AfterStep::falls, 0.0);
+    return step_origin(rows.x, rows.y, AfterStep::relaxes, 0.0);
   };
   EXPECT_EQ(at(0.0, 0.0).sentence, "");  // the clock's zero
   EXPECT_EQ(at(0.1, 0.0).sentence, "");  // one row before the first
-  EXPECT_NEAR(at(30.0, 30.0).time, 30.0, 1e-9);
-  EXPECT_NEAR(at(0.0, 2.0).time, 2.0, 1e-9);
-  EXPECT_NEAR(at(0.0, 2.0).first, 2.0, 1e-9);
+  EXPECT_NEAR(at(30.0, 30.0).best.time, 30.0, 1e-9);
+  EXPECT_NEAR(at(0.0, 2.0).best.time, 2.0, 1e-9);
+  EXPECT_NEAR(at(0.0, 2.0).best.first, 2.0, 1e-9);
 }
 
 TEST(StepOrigin, ACreepThatBeganBeforeTheRecordIsRefused) {
@@ -54,6 +54,100 @@ TEST(StepOrigin, ACreepThatBeganBeforeTheRecordIsRefused) {
       test::refusal([&] {
         return step_origin(x, y, AfterStep::rises_from_zero, 0.0);
       }).starts_with("the first row, at 30, is not near zero, so that the creep began before"));
+}
+
+// A ramp of stress from 2 to 5, and a hold: its ends to a row, with noise, whose largest value lies
+// some rows from the end.
+TEST(StepOrigin, OfARampIsItsBeginning) {
+  const auto rows_with = [](double scatter) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0.0, scatter);
+    Rows rows;
+    for (int i = 0; i < 300; ++i) {
+      const double t = 0.1 * i + 0.03;
+      rows.x.push_back(t);
+      rows.y.push_back(noise(random) + (t < 2.0   ? 0.0
+                                        : t < 5.0 ? t - 2.0
+                                                  : 1.0 + 2.0 * std::exp(-(t - 5.0) / 4.0)));
+    }
+    return rows;
+  };
+  const Rows rows = rows_with(0.02);
+  const StepOrigin found = step_origin(rows.x, rows.y, AfterStep::relaxes, std::nullopt);
+  EXPECT_NEAR(found.best.time, 2.0, 0.11);
+  EXPECT_NEAR(found.best.time + found.best.ramp, 5.0, 0.11);
+  EXPECT_EQ(found.best.first, found.best.time + found.best.ramp);
+  // The end may be a row earlier; the beginning and the end may be a row later.
+  ASSERT_EQ(found.others.size(), 2U);
+  EXPECT_NEAR(found.others[0].time, found.best.time, 1e-9);
+  EXPECT_NEAR(found.others[0].ramp, found.best.ramp - 0.1, 1e-9);
+  EXPECT_NEAR(found.others[1].time, found.best.time + 0.1, 1e-9);
+  EXPECT_NEAR(found.others[1].ramp, found.best.ramp, 1e-9);
+  EXPECT_EQ(step_origin(rows.x, rows.y, AfterStep::relaxes, 0.0).best.ramp, 0.0);
+  const Rows noisy = rows_with(0.1);
+  const Loading ramp = step_origin(noisy.x, noisy.y, AfterStep::relaxes, std::nullopt).best;
+  EXPECT_NEAR(ramp.time + ramp.ramp, 5.0, 0.21);
+}
+
+// One row on the ramp is enough, and none is a step.
+TEST(StepOrigin, OfAShortRamp) {
+  const std::vector<double> x{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0};
+  std::vector<double> y{0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 1.8, 1.65, 1.55, 1.5};
+  const Loading ramp = step_origin(x, y, AfterStep::relaxes, std::nullopt).best;
+  EXPECT_EQ(ramp.time, 4.0);
+  EXPECT_EQ(ramp.ramp, 2.0);
+  y[4] = 0.0;
+  EXPECT_EQ(step_origin(x, y, AfterStep::relaxes, std::nullopt).best.ramp, 0.0);
+}
+
+// A slow rise after a level, and the same rise from the first row on, whose clock is right.
+TEST(StepOrigin, ALevelIsNoSlowStart) {
+  std::normal_distribution<double> noise(0.0, 0.005);
+  for (const double start : {8.03, 0.0})
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+      std::mt19937 random(seed);
+      Rows rows;
+      for (int i = 0; i < 240; ++i) {
+        const double t = 0.25 * i;
+        rows.x.push_back(t);
+        rows.y.push_back(noise(random) +
+                         (t < start ? 0.0 : 0.2 * (1.0 - std::exp(-(t - start) / 8.0))));
+      }
+      const StepOrigin found = step_origin(rows.x, rows.y, AfterStep::rises_from_zero, 0.0);
+      if (start == 0.0) {
+        EXPECT_LT(found.best.time, 2.0) << seed;  // as late as noise makes it, for refined()
+      } else {
+        EXPECT_TRUE(found.after_level && !found.sentence.empty()) << seed;
+      }
+    }
+}
+
+// Creep that has come to its end is as large for long before the load is taken off.
+TEST(StepOrigin, OfARecoveryIsTheEndOfThePlateau) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  Rows rows;
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.1 * i;
+    rows.x.push_back(t);
+    rows.y.push_back(noise(random) +
+                     (t < 20.0 ? 1.0 - std::exp(-t / 2.0) : std::exp(-(t - 20.0) / 2.0)));
+  }
+  const StepOrigin found = step_origin(rows.x, rows.y, AfterStep::recovers, 0.0);
+  EXPECT_NEAR(found.best.time, 20.0, 0.21);
+}
+
+TEST(LoadingPart, ALimitIsARunOfTheLargestValue) {
+  std::vector<double> y;
+  for (int i = 0; i < 40; ++i) y.push_back(std::min(0.1 * i, 2.55));
+  EXPECT_EQ(limit_of(y).from, 26U);
+  EXPECT_EQ(limit_of(y).to, 40U);
+  for (int i = 0; i < 5; ++i) y.push_back(2.0 - 0.1 * i);  // and falls again
+  EXPECT_EQ(limit_of(y).to, 40U);
+  // The steps of a converter grow as a curve comes to rest, and are no limit.
+  std::vector<double> steps;
+  for (int i = 0; i < 100; ++i) steps.push_back(std::round(20.0 * (1.0 - std::exp(-i / 20.0))));
+  EXPECT_EQ(limit_of(steps).from, steps.size());
 }
 
 TEST(LoadingPart, BranchesTurnWhereTheStrainDoes) {
@@ -186,8 +280,8 @@ TEST(StepOrigin, OfAJumpIsTheFirstRowAfterIt) {
   }
   strain[20] = 1.0;
   const StepOrigin found = step_origin(time, strain, AfterStep::rises, 0.0);
-  EXPECT_EQ(found.time, time[50]);
-  EXPECT_EQ(found.first, time[50]);
+  EXPECT_EQ(found.best.time, time[50]);
+  EXPECT_EQ(found.best.first, time[50]);
 }
 
 TEST(LoadingPart, TheFirstOfSeveralPresses) {

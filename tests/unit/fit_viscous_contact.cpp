@@ -112,6 +112,14 @@ TEST(ViscousContact, StandardLinearSolid) {
   EXPECT_NEAR(fit.parameters[0].estimate, 0.5, 5e-3);   // kPa, E_inf
   EXPECT_NEAR(fit.parameters[1].estimate, 1.5, 1e-2);   // E_0
   EXPECT_NEAR(fit.parameters[2].estimate, 0.15, 2e-3);  // s
+  // A press of an AFM lasts milliseconds: the moduli are the same, and so is tau over its length.
+  for (double& each : press.time) each *= 1e-3;
+  const Fit fast =
+      fit_viscous(press.time, press.depth, press.force, {.radius = probe}, Viscous::solid);
+  ASSERT_EQ(fast.termination, Termination::converged);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(fast.parameters[i].estimate * (i == 2 ? 1e3 : 1.0), fit.parameters[i].estimate,
+                1e-6 * fit.parameters[i].estimate);
 }
 
 TEST(ViscousContact, IntervalsHold) {
