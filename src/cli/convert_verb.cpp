@@ -54,7 +54,7 @@ Kind kind_of(const std::string& path) {
   if (meshing::holds_cells(path))
     return meshing::read_cells(path).solids.empty() ? Kind::surface : Kind::mesh;
   if (ending == ".toml") return Kind::scenario;
-  if (!fs::exists(path))
+  if (ending.empty() && !fs::exists(path))
     throw InputError({path, 0, 0}, "cannot be read: No such file or directory; check the path");
   throw InputError({path, 0, 0},
                    "is neither a surface (.stl, .obj, .ply, .off, .vtp) nor a mesh (.msh, .vtu, "

@@ -171,10 +171,11 @@ std::pair<std::string, std::string> node_ele_texts(const geometry::TetMesh& mesh
 geometry::TetMesh read_node_ele(const std::string& path, double metres_per_unit) {
   const Pair files = both_files(path);
   if (!belong_together(files))
-    throw InputError({files.ele, 0, 0},
-                     "belongs to other nodes than those of `" + files.node +
-                         "`, as after an interrupted `palpate convert`; run that again, or rename `" +
-                         replaced(files) + "` to `" + files.node + "`");
+    throw InputError(
+        {files.ele, 0, 0},
+        "belongs to other nodes than those of `" + files.node +
+            "`, as after an interrupted `palpate convert`; run that again, or rename `" +
+            replaced(files) + "` to `" + files.node + "`");
   geometry::TetMesh mesh;
   const int first = read_nodes(TableLines(files.node), metres_per_unit, mesh);
   read_tetrahedra(TableLines(files.ele), first, mesh);

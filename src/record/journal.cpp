@@ -117,7 +117,7 @@ JournalFile read_journal(const std::string& path, std::string_view identity, con
 }
 
 std::vector<std::string> journal_files(const std::string& folder) {
-  if (::access(folder.c_str(), R_OK) != 0 && errno != ENOENT)
+  if (::access(folder.c_str(), R_OK) != 0 && errno != ENOENT && errno != ENOTDIR)
     throw SystemError(folder + " cannot be read: " + std::strerror(errno));
   std::vector<std::string> paths = entries_of(folder);
   std::erase_if(paths, [](const std::string& path) { return !path.ends_with(ending); });

@@ -249,7 +249,7 @@ TEST(Setting, WhatCannotBeSetIsRefused) {
        "single dots, as `tissue.material`"},
       {"b=\xff", "--set b: the value is not UTF-8 text; write it in UTF-8"},
       {"b=1\nc=2",
-       "--set b=1\nc=2: a setting holds one value; write each key with a `--set` of its "
+       "--set b=1\\x0ac=2: a setting holds one value; write each key with a `--set` of its "
        "own"},
   };
   for (const auto& [assignment, sentence] : cases)

@@ -30,7 +30,7 @@ class FileFaults : public Hindered {
       EXPECT_TRUE(is_new()) << what << ": exit code 0 and no result:" << others() << ended.err;
     }
     // The two files of a mesh are replaced one by one, and a pair of two meshes is refused.
-    const bool pair = std::string(GetParam().name) == "mesh" && ended.code != 0;
+    const bool pair = std::string(GetParam().name) == "convert" && ended.code != 0;
     EXPECT_TRUE(is_old() || is_new() || pair) << what << ": " << ended.err;
     if (!is_old()) restore();
     const bool seen = fs::exists(mark);
