@@ -74,6 +74,11 @@ void refuse_slides_at_a_force(const scenario::Family& family, const Scenario& sc
                 "the reference slides at a depth; write `keep = \"travel\"`");
 }
 
+// Whether spheres share the force of one, which the reference presses in their place.
+bool stand_for_one(const scenario::PlainFinger& finger) {
+  return finger.spheres > 1 && finger.calibration == finger::Calibration::force;
+}
+
 // What inertia adds to the force, with its error, at the moments of the rows; nothing where coupled
 // springs cannot be refined, or end elsewhere than the reference.
 std::optional<History> added_by_inertia(const Asked& asked, std::size_t of_case, bool flows,
@@ -82,12 +87,14 @@ std::optional<History> added_by_inertia(const Asked& asked, std::size_t of_case,
   if (flows || rows.empty() || rows.back().slide != 0.0) return std::nullopt;
   if (mesh_setting(scenario, 1.0).empty()) return std::nullopt;
   const auto run = [&](double factor, const char* integrator) {
-    return run_with(asked, of_case,
-                    {model_setting(scenario::strongest.of), "contact.coupling=consistent",
-                     "tissue.viscosity=none", std::string("solver.integrator=") + integrator,
-                     "output.interval=" + number_text(1e3 * interval) + " ms",
-                     mesh_setting(scenario, factor)})
-        .moments;
+    std::vector<std::string> settings{model_setting(scenario::strongest.of),
+                                      "contact.coupling=consistent",
+                                      "tissue.viscosity=none",
+                                      std::string("solver.integrator=") + integrator,
+                                      "output.interval=" + number_text(1e3 * interval) + " ms",
+                                      mesh_setting(scenario, factor)};
+    if (stand_for_one(scenario.finger)) settings.emplace_back("finger.spheres=1");
+    return run_with(asked, of_case, settings).moments;
   };
   const auto on = [&](double factor) {
     History added = run(factor, "modal");
@@ -384,8 +391,7 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   scenario.contact.direction = asked.family.cases[of_case].scenario.contact.direction;
   if (moves) return in_motion(one, family, choice);
   refuse_slides_at_a_force(family, scenario);
-  const bool one_for_all =
-      scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::force;
+  const bool one_for_all = stand_for_one(scenario.finger);
   if (one_for_all) scenario.finger.spheres = 1;
   scenario.solver = {};
   scenario.solver.model = scenario::Model::solid;
