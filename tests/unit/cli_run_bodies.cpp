@@ -1,0 +1,120 @@
+// Bodies from files as people bring them: turned, on a facet, with a ridge; and inclusions that
+// touch a border.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+
+#include "geometry/cuboid.h"
+#include "geometry/shapes.h"
+#include "program.h"
+#include "record/csv.h"
+#include "surface_file.h"
+
+namespace palpate::test {
+namespace {
+
+class RunBodies : public testing::Test {
+ protected:
+  Ended run(const std::string& tissue, const std::string& finger, const std::string& more = "") {
+    write_file(folder_ / "press.toml",
+               "[[step]]\nkind = \"indent\"\nto = \"1.5 mm\"\n[output]\nfigures = false\n"
+               "pressure_maps = false\ninterval = \"100 ms\"\n[solver]\nmodel = \"solid\"\n"
+               "[finger]\nmaterial = \"rigid\"\nradius = \"8 mm\"\n" +
+                   finger +
+                   "[tissue]\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.4\n"
+                   "viscosity = \"none\"\n" +
+                   tissue + more);
+    return palpate(folder_.path(), {"run", "press.toml", "--force"});
+  }
+  // N, of the last row.
+  double force() const {
+    const record::Table table =
+        record::read_csv((folder_ / "out/press/force_indentation.csv").string());
+    return std::get<double>(table.rows.back()[as_index(table.find("force_N"))]);
+  }
+  // A column of 12 x 12 x 24 mm, turned about y by an angle in degrees.
+  std::string column(double degrees) {
+    geometry::Surface surface =
+        geometry::skin(
+            geometry::cuboid(Vec3(0.012, 0.012, 0.024), {2, 2, 4}, geometry::CellPattern::mirrored))
+            .surface;
+    const Eigen::AngleAxisd turn(degrees / 180.0 * M_PI, Vec3::UnitY());
+    for (Vec3& vertex : surface.vertices)  // with the digits that files have
+      vertex = (1e9 * (turn * vertex)).array().round().matrix() * 1e-9;
+    write_off(folder_ / "column.off", surface);
+    const Vec3 up = turn * Vec3::UnitZ();
+    return "base_height = \"" + number_text(1e3 * 0.018) +
+           " mm\"\nshape = { kind = \"file\", file = \"column.off\", unit = \"mm\", up = \"" +
+           number_text(up.x()) + " 0 " + number_text(up.z()) + "\" }\n";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RunBodies, a_turned_column_is_held_as_a_straight_one) {
+  const auto at = [](double degrees) {
+    const Vec3 top =
+        Eigen::AngleAxisd(degrees / 180.0 * M_PI, Vec3::UnitY()) * Vec3(0.006, 0.006, 0.024);
+    return "at = [\"" + number_text(1e3 * top.x()) + " mm\", \"" + number_text(1e3 * top.y()) +
+           " mm\", \"" + number_text(1e3 * top.z()) + " mm\"]\n";
+  };
+  Ended ended = run(column(0.0), at(0.0));  // two coordinates of the place are equal
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const double straight = force();
+  ended = run(column(25.0), at(25.0));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NEAR(force(), straight, 0.01 * straight);  // free below 18 mm it yields a third more
+}
+
+TEST_F(RunBodies, a_press_on_what_is_held_is_refused) {
+  const Ended ended = run("base_side = \"x\"\n" + column(0.0).substr(column(0.0).find("shape")),
+                          "at = [\"12 mm\", \"6 mm\", \"12 mm\"]\ntowards = \"-x\"\n");
+  EXPECT_EQ(ended.code, 5);
+  EXPECT_TRUE(says(ended, "presses the side that the base holds")) << ended.err;
+}
+
+// An icosphere of 80 facets on one of them is held by its lowest tenth, as the ball is.
+TEST_F(RunBodies, a_facet_of_a_round_body_is_no_flat_underside) {
+  geometry::Surface ball = geometry::ellipsoid_surface(Vec3::Zero(), Vec3::Constant(0.03), 0.005);
+  const auto& [a, b, c] = ball.triangles.front();
+  const Vec3 down = (ball.vertices[as_index(b)] - ball.vertices[as_index(a)])
+                        .cross(ball.vertices[as_index(c)] - ball.vertices[as_index(a)])
+                        .normalized();
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(down, -Vec3::UnitZ());
+  for (Vec3& vertex : ball.vertices) vertex = turn * vertex;
+  write_off(folder_ / "ball.off", ball);
+  const Ended ended = run("shape = { kind = \"file\", file = \"ball.off\", unit = \"mm\" }\n",
+                          "x = \"0 mm\"\ny = \"0 mm\"\n");
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const double faceted = force();
+  ASSERT_EQ(
+      run("shape = { kind = \"ellipsoid\", size = [\"30 mm\", \"30 mm\", \"30 mm\"] }\n", "").code,
+      0);
+  EXPECT_NEAR(faceted, force(), 0.03 * force());
+}
+
+TEST_F(RunBodies, an_inclusion_that_touches_a_layer_is_meshed_a_little_smaller) {
+  const std::string block =
+      "shape = { kind = \"cuboid\", size = [\"44 mm\", \"44 mm\", \"22 mm\"] }\n";
+  const std::string finger = "x = \"22 mm\"\ny = \"21 mm\"\n";
+  const auto with = [](const char* radius) {
+    return "[[region]]\nkind = \"slab\"\nbottom = \"0 mm\"\ntop = \"10 mm\"\n"
+           "young_modulus = \"50 kPa\"\n[[region]]\nkind = \"sphere\"\n"
+           "centre = [\"23 mm\", \"22 mm\", \"14 mm\"]\nradius = \"" +
+           std::string(radius) + " mm\"\nyoung_modulus = \"100 kPa\"\n";
+  };
+  Ended ended = run(block, finger, with("4"));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(says(ended, "an inclusion that touches a border is meshed with a radius that is 1 %"))
+      << ended.err;
+  const double touching = force();
+  ended = run(block, finger, with("3.9"));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_FALSE(says(ended, "touches a border")) << ended.err;
+  EXPECT_NEAR(touching, force(), 0.03 * force());
+}
+
+}  // namespace
+}  // namespace palpate::test
