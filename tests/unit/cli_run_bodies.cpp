@@ -1,5 +1,5 @@
-// Bodies from files as people bring them: turned, on a facet, with a ridge; and inclusions that
-// touch a border.
+// Bodies from files as people bring them: turned, on a facet, pressed where they are held; and
+// inclusions that touch a border.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
