@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "geometry/box_tree.h"
 #include "run/pressure_map.h"
 
 namespace palpate::run {
@@ -20,6 +21,29 @@ constexpr std::array<double, 3> per_radius{2.0, 3.2, 4.4};
 // surface.
 constexpr double beside_inclusion = 2.6;
 
+constexpr double most_narrowed = 0.5;  // finer meshes take minutes
+
+// How wide the contact on a sharp edge is across it, over that on a flat: where the undeformed
+// sphere, at the deepest, overlaps sides with slopes s to it, x = R (sqrt(s^2 + 2 d/R) - s). 1 away
+// from edges.                                                    docs/theory.md [edge_width]
+double width_on(const scene::SolidBody& body, const scene::Finger& finger, double deepest) {
+  if (finger.centres.size() > 1 || !(deepest > 0.0)) return 1.0;
+  const Vec3& centre = body.first_touch;
+  const auto foot =
+      body.skin->foot(centre, geometry::BoxTree(body.skin->surface()).nearest(centre));
+  if (!foot.on_crease) return 1.0;
+  const Vec3 towards = (centre - foot.position).normalized();
+  const double flat = 2.0 * deepest / finger.sphere_radius;
+  double width = 0.0;
+  for (const geometry::SurfacePoint& side : {foot.at, foot.beyond}) {
+    constexpr double steepest = 0.1;  // its cosine
+    const double cosine = std::clamp(body.skin->normal(side).dot(towards), steepest, 1.0);
+    const double slope = std::sqrt(1.0 - cosine * cosine) / cosine;
+    width += 0.5 * (std::sqrt(slope * slope + flat) - slope) / std::sqrt(flat);
+  }
+  return width;
+}
+
 std::size_t meshes_for(double tolerance) {
   if (tolerance >= solid::error_of_one_mesh) return 1;
   return tolerance >= solid::error_of_two_meshes ? 2 : 3;
@@ -30,43 +54,58 @@ std::size_t meshes_for(double tolerance) {
 SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   const std::size_t count = meshes_for(scene.scenario.solver.tolerance);
   deepest_ = scene::deepest_travel(scene.scenario, scene.finger.whole);
-  per_radius_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
+  asked_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
   included_ = std::any_of(
       scene.scenario.regions.begin(), scene.scenario.regions.end(),
       [](const auto& region) { return std::holds_alternative<scenario::Lump>(region.part); });
-  if (count == 1 && included_) per_radius_.front() = beside_inclusion;
+  if (count == 1 && included_) asked_.front() = beside_inclusion;
+  per_radius_ = asked_;
   make();
 }
 
+// All meshes have one kind of surface and one size of inclusions, or no force could be extrapolated
+// from theirs.
 void SolidPress::make() {
-  // Again with sizes a little different, as TetGen may fail by bad luck, and with inclusions a
-  // little smaller, as those that touch a border cannot be meshed.
-  constexpr double finer = 1.07;
-  constexpr std::array<double, 3> radii{1.0, 0.99, 0.97};
-  presses_.clear();
-  try {
-    for (double& number : per_radius_)
-      for (std::size_t tries = 0;; ++tries) {
-        inclusion_size_ = radii[tries];
-        try {
-          presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
-          break;
-        } catch (const MeshError&) {
-          if (tries + 1 == radii.size() || (!included_ && !scene_->solid->surface)) throw;
-          number *= finer;
-        }
-      }
-  } catch (const MeshError&) {
-    if (!simpler()) throw;
-    make();
+  for (;;) {
+    width_ = width_on(body(), scene_->finger, deepest_);
+    try {
+      presses_.clear();
+      for (std::size_t i = 0; i < per_radius_.size(); ++i) presses_.push_back(made(i));
+      return;
+    } catch (const MeshError&) {
+      if (!simpler()) throw;
+    }
   }
 }
 
-// The smooth surface through the vertices of a file may cut itself where the body is thin beside
-// their distance, and so may a coarser one. All meshes have one surface, or no force could be
-// extrapolated from theirs.
+std::unique_ptr<solid::FingerPress> SolidPress::made(std::size_t mesh) {
+  // Again with elements a little smaller where the surface is a file's, as TetGen may fail by bad
+  // luck.
+  constexpr double finer = 1.07;
+  const int most_tries = scene_->solid->surface ? 3 : 1;
+  double& number = per_radius_[mesh];
+  number = asked_[mesh];
+  for (int tries = 1;; ++tries) {
+    try {
+      return std::make_unique<solid::FingerPress>(order(number));
+    } catch (const MeshError&) {
+      if (tries == most_tries) throw;
+      number *= finer;
+    }
+  }
+}
+
+// Inclusions that touch a border cannot be meshed. The smooth surface through the vertices of a
+// file may cut itself where the body is thin beside their distance, and so may a coarser one.
 bool SolidPress::simpler() {
+  constexpr std::array<double, 3> sizes{1.0, 0.99, 0.97};
+  if (included_ && inclusion_size_ > sizes.back()) {
+    inclusion_size_ = *std::find_if(sizes.begin(), sizes.end(),
+                                    [&](double size) { return size < inclusion_size_; });
+    return true;
+  }
   if (!scene_->solid->surface || surface_ == Surface::unchanged) return false;
+  inclusion_size_ = 1.0;
   surface_ = surface_ == Surface::smooth ? Surface::flat : Surface::unchanged;
   if (!flat_) flat_ = scene::flattened(*scene_->solid, *scene_);
   return true;
@@ -99,7 +138,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.base_level = given.base_level;
   body.base_up = scenario.tissue.base_up;
   body.mirrored = {true, true};
-  body.per_radius = per_radius;
+  body.per_radius = per_radius / std::clamp(width_, most_narrowed, 1.0);
   order.skin = given.skin.get();
   order.centres = finger.centres;
   order.radius = finger.sphere_radius;
@@ -147,8 +186,10 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   }
   const solid::Extrapolated best = solid::extrapolated(per_radius_, forces);
   now_.force = best.force;
-  // The meshes are made for the deepest travel; their elements are larger beside smaller contacts.
+  // The meshes are made for the deepest travel, and for a width on edges; their elements are larger
+  // beside smaller and narrower contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
+  error_ *= std::max(1.0, most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();
   if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();
@@ -186,7 +227,7 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("mirrored_copies", static_cast<double>(finest.body().copies));
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
-  if (inclusion_size_ < 1.0 && included_)
+  if (inclusion_size_ < 1.0)
     record.remarks.push_back("an inclusion that touches a border is meshed with a radius that is " +
                              percent_text(1.0 - inclusion_size_) + " smaller");
   if (flat_)

@@ -45,10 +45,11 @@ class SolidPress {
  private:
   // The surface of a file as the mesh takes it.
   enum class Surface { smooth, flat, unchanged };
-  // Makes the presses; again with flat triangles, and at last with those of the file alone, where
-  // no mesh can be made.
+  // Makes the presses, and again with simpler bodies where one cannot be meshed. Throws MeshError.
   void make();
-  // Whether there is a next kind of surface, which is then taken.
+  [[nodiscard]] std::unique_ptr<solid::FingerPress> made(std::size_t mesh);
+  // Whether there is a simpler body, which is then taken: smaller inclusions, then flat triangles,
+  // then those of the file alone.
   [[nodiscard]] bool simpler();
   [[nodiscard]] const scene::SolidBody& body() const { return flat_ ? *flat_ : *scene_->solid; }
   [[nodiscard]] solid::FingerOrder order(double per_radius) const;
@@ -59,8 +60,9 @@ class SolidPress {
   double inclusion_size_ = 1.0;  // of their radii
   std::optional<scene::SolidBody> flat_;
   std::vector<std::unique_ptr<solid::FingerPress>> presses_;  // coarsest mesh first
-  std::vector<double> per_radius_;
-  double deepest_ = 0.0;  // m, travel
+  std::vector<double> asked_, per_radius_;  // elements in the contact radius: wanted, and taken
+  double deepest_ = 0.0;                    // m, travel
+  double width_ = 1.0;  // of the contact across a sharp edge, over that on a flat
   solid::Moment now_;
   double error_ = 0.0;  // of the last force, a fraction of it
 };
