@@ -65,7 +65,7 @@ std::optional<Indenter::Meeting> Indenter::at(const Vec3& place) const {
   const double inside =
       2.0 * own.z() - c_1 * own.x() * own.x() - c_2 * own.y() * own.y() - c * own.z() * own.z();
   const double length = down.norm();
-  return Meeting{inside / (length + (c_1 == c_2 ? 1.0 : length)), down / length, c / length};
+  return Meeting{inside / (length + (c_1 == c_2 ? 1.0 : length)), down / length};
 }
 
 std::optional<double> Indenter::gap(const Vec3& place) const {
@@ -142,17 +142,14 @@ void Contact::for_each(const Vector& displacement, std::span<const Indenter> ind
         const double s = indenters[i].share;
         const double depth = s * found->depth + (1.0 - s) * face.normals[q].dot(change);
         if (depth <= 0.0) continue;
-        visit(face, q, i,
-              Overlap{depth, s * found->normal - (1.0 - s) * face.normals[q], found->normal,
-                      s * found->bend});
+        visit(face, q, i, Overlap{depth, s * found->normal - (1.0 - s) * face.normals[q]});
       }
     }
   }
 }
 
-void Contact::add(const Vector& displacement, std::span<const Indenter> indenters, double steepest,
-                  Vector& force, Eigen::SparseMatrix<double>& stiffness,
-                  std::vector<Met>& met) const {
+void Contact::add(const Vector& displacement, std::span<const Indenter> indenters, Vector& force,
+                  Eigen::SparseMatrix<double>& stiffness, std::vector<Met>& met) const {
   met.assign(indenters.size(), {});
   double* values = stiffness.valuePtr();
   for_each(displacement, indenters,
@@ -167,10 +164,7 @@ void Contact::add(const Vector& displacement, std::span<const Indenter> indenter
              const std::array<double, 6>& n = rule()[q].values;
              for (std::size_t a = 0; a < 6; ++a)
                force.segment<3>(3 * face.nodes[a]) -= n[a] * area * pressure * here.push;
-             const double bend = area * std::min(pressure, steepest) * here.bend;
-             const Eigen::Matrix3d change =
-                 area * stiffness_ * here.push * here.push.transpose() +
-                 bend * (here.normal * here.normal.transpose() - Eigen::Matrix3d::Identity());
+             const Eigen::Matrix3d change = area * stiffness_ * here.push * here.push.transpose();
              const int* entry = face.entries.data();
              for (std::size_t r = 0; r < 18; ++r)
                for (std::size_t c = 0; c <= r; ++c, ++entry)
@@ -219,8 +213,6 @@ Press::Press(Body body)
     : body_(std::move(body)),
       elements_(body_.mesh, body_.tissues, body_.held),
       contact_(elements_, body_.met, penalty(body_)) {
-  for (const tissue::Isotropic& own : body_.tissues)
-    hardest_ = std::max(hardest_, own.young_modulus);
   Vector force;
   elements_.assemble(Vector::Zero(static_cast<Eigen::Index>(3 * body_.mesh.nodes.size())), force,
                      linear_);
@@ -287,7 +279,7 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
   for (int i = 0; i < most_steps; ++i) {
     const double least = elements_.assemble(u, force, stiffness_);
     if (!(least > -1.0)) return std::nullopt;
-    contact_.add(u, indenters, hardest_, force, stiffness_, met);
+    contact_.add(u, indenters, force, stiffness_, met);
     for (int d = 0; d < static_cast<int>(u.size()); ++d)
       if (const int unknown = elements_.unknown(d); unknown >= 0) right[unknown] = -force[d];
     if (!factor()) return std::nullopt;
@@ -302,7 +294,7 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     if (most > last_step * body_.travel) continue;
     const double folded = elements_.assemble(u, force, stiffness_);
     if (!(folded > 0.0)) return std::nullopt;
-    contact_.add(u, indenters, hardest_, force, stiffness_, met);
+    contact_.add(u, indenters, force, stiffness_, met);
     Answer answer;
     double work = 0.0;
     for (std::size_t i = 0; i < met.size(); ++i) {

@@ -32,7 +32,6 @@ struct Indenter {
   struct Meeting {
     double depth = 0.0;  // m, inside the indenter: of a sphere exactly, else to first order
     Vec3 normal;         // of the surface, on the body, unit
-    double bend = 0.0;   // 1/m, mean curvature there, of a sphere about its centre
   };
   // Nothing beyond where the surface is upright.
   [[nodiscard]] std::optional<Meeting> at(const Vec3& place) const;
@@ -60,10 +59,12 @@ class Contact {
   // this.
   Contact(const Elements& elements, std::span<const OuterFace> faces, double stiffness);
 
-  // Adds the gradient and the second derivative of the penalty's energy at `displacement` (m).
-  // `steepest` (Pa) bounds the pressures in the part of the second derivative that can be negative.
-  void add(const Vector& displacement, std::span<const Indenter> indenters, double steepest,
-           Vector& force, Eigen::SparseMatrix<double>& stiffness, std::vector<Met>& met) const;
+  // Adds the gradient of the penalty's energy at `displacement` (m), and Gauss and Newton's part of
+  // its second derivative. The rest, the pressure times the curvature of the indenter, is negative:
+  // far from equilibrium the stiffness would not be positive definite, and near it Newton's steps
+  // converge as well without.
+  void add(const Vector& displacement, std::span<const Indenter> indenters, Vector& force,
+           Eigen::SparseMatrix<double>& stiffness, std::vector<Met>& met) const;
 
   // J, whose gradient add() adds.
   [[nodiscard]] double energy(const Vector& displacement,
@@ -83,8 +84,6 @@ class Contact {
   struct Overlap {
     double depth = 0.0;  // m, above 0
     Vec3 push;           // against its gradient
-    Vec3 normal;         // of the indenter
-    double bend = 0.0;   // 1/m
   };
   // Calls visit(face, point, indenter, overlap) for every overlap.
   template <class Visit>
@@ -161,7 +160,6 @@ class Press {
   FrontCholesky factors_;
   Eigen::SparseMatrix<double> stiffness_, linear_;
   std::vector<Indenter> indenters_;
-  double hardest_ = 0.0;  // Pa, largest Young's modulus
   State now_, before_;
   bool has_before_ = false;
   int factorisations_ = 0;

@@ -59,7 +59,7 @@ class Poisson : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Ratios, Poisson, testing::Values(0.1, 0.45, 0.47, 0.4999));
 
 // With the pressures of the state itself the stiffness is the derivative of the force.
-TEST_P(Poisson, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForce) {
+TEST_P(Poisson, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForceOfFlats) {
   const Mesh mesh = curved_block();
   const Isotropic tissue{50e3, GetParam()};
   Elements solid(mesh, {&tissue, 1}, free_of(mesh));
@@ -152,7 +152,7 @@ TEST_P(Poisson, IsLinearElasticityAtRest) {
   EXPECT_NEAR(0.5 * u.dot(product), want, 1e-9 * want);
 }
 
-TEST(SolidContact, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForce) {
+TEST(SolidContact, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForceOfFlats) {
   const Mesh mesh = curved_block();
   const Isotropic tissue{50e3, 0.4};
   Elements solid(mesh, {&tissue, 1}, free_of(mesh));
@@ -166,11 +166,12 @@ TEST(SolidContact, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForce) {
   Vector none, before, after;
   std::vector<Met> met;
   solid.assemble(at, none, stiffness);
+  std::span<const Indenter> fingers = balls;
   const auto add = [&](const Vector& u, Vector& force, Eigen::SparseMatrix<double>& matrix) {
     force.setZero(u.size());
     matrix = stiffness;
     matrix *= 0.0;
-    contact.add(u, balls, HUGE_VAL, force, matrix, met);
+    contact.add(u, fingers, force, matrix, met);
   };
   Vector force;
   add(at, force, other);
@@ -190,6 +191,13 @@ TEST(SolidContact, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForce) {
       (contact.energy(at + step * along, balls) - contact.energy(at - step * along, balls)) /
       (2.0 * step);
   EXPECT_NEAR(slope, force.dot(along), 1e-6 * force.norm());
+  // The part of the stiffness that is left out has the indenters' curvature as a factor.
+  const std::vector<Indenter> flats{{.pole = Vec3(0.008, 0.007, 0.0095)},
+                                    {.pole = Vec3(0.012, 0.007, 0.0097), .share = 0.7}};
+  fingers = flats;
+  add(at, force, other);
+  EXPECT_GT(met[0].area, 1e-5);
+  EXPECT_GT(met[1].area, 1e-5);
   const Vector product = other.selfadjointView<Eigen::Lower>() * along;
   Eigen::SparseMatrix<double> unused;
   add(at + step * along, after, unused);
