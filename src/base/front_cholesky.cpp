@@ -289,8 +289,7 @@ void FrontCholesky::analyse(const SparseMatrix& lower, std::span<const int> firs
   for (Front& front : fronts_)
     if (front.below > 0)
       front.parent = front_at[as_index(rows_[front.rows + as_index(front.width)])];
-  size_ = values;
-  release();
+  values_.assign(values, 0.0);
 
   // Where every entry of the matrix goes.
   std::vector<std::vector<Entry>> of_front(fronts_.size());
@@ -315,13 +314,8 @@ void FrontCholesky::analyse(const SparseMatrix& lower, std::span<const int> firs
   }
 }
 
-void FrontCholesky::release() {
-  values_ = {};
-  waiting_ = {};
-}
-
 bool FrontCholesky::factor(const SparseMatrix& lower) {
-  values_.assign(size_, 0.0);
+  std::fill(values_.begin(), values_.end(), 0.0);
   // What a front leaves to its parent is a lower triangle by columns of full height. The triangles
   // wait in one stack: in postorder those of a front's children are on top of it.
   std::vector<std::size_t> left(fronts_.size(), 0);  // where each begins

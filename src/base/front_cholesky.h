@@ -22,9 +22,6 @@ class FrontCholesky {
   // rounding, 1e-14 of its diagonal entry.
   [[nodiscard]] bool factor(const Eigen::SparseMatrix<double>& lower);
 
-  // Gives the memory of the factors back until the next call of factor().
-  void release();
-
   // Solves A x = b with the factors of the last call of factor(), which must have returned true.
   // `x` may be `b`.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
@@ -50,7 +47,6 @@ class FrontCholesky {
   std::vector<Front> fronts_;  // children before parents
   std::vector<int> rows_;
   std::vector<Entry> entries_;
-  std::size_t size_ = 0;  // of values_, while there are factors
   std::vector<double> values_;
   std::vector<int> diagonal_;    // index of each diagonal entry in the matrix, in elimination order
   std::vector<double> waiting_;  // what fronts leave to their parents

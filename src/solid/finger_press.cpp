@@ -415,7 +415,6 @@ bool FingerPress::reach(double travel) {
     const double found = order_.share * (order_.touch.finger.z() - press_->reached().z());
     if (found > farther * tissue_.reached) take(found, press_->go(press_->reached()));
   }
-  press_->release();  // finer meshes and balls follow
   return reason_.empty() || (!order_.ball && travel <= tissue_.reached);
 }
 

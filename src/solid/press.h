@@ -140,9 +140,6 @@ class Press {
   // The state stays as it is, so that later answers do not depend on this.
   [[nodiscard]] std::optional<Vector> look(const Vec3& finger);
 
-  // Gives memory back that the next move takes again.
-  void release() { factors_.release(); }
-
   [[nodiscard]] std::vector<Indenter> finger_at(const Vec3& place) const;  // m
   [[nodiscard]] const Body& body() const { return body_; }
   [[nodiscard]] int factorisations() const { return factorisations_; }
