@@ -122,9 +122,21 @@ Contact::Contact(const Elements& elements, std::span<const OuterFace> faces, dou
   }
 }
 
+std::vector<double> Contact::half_depths(std::span<const Indenter> indenters) const {
+  std::vector<double> half(indenters.size(), 0.0);
+  for (const Own& face : faces_)
+    for (std::size_t i = 0; i < indenters.size(); ++i) {
+      if (!indenters[i].near(face.middle, face.reach)) continue;
+      for (const Vec3& place : face.places)
+        if (const auto found = indenters[i].at(place))
+          half[i] = std::max(half[i], 0.5 * found->depth);
+    }
+  return half;
+}
+
 template <class Visit>
 void Contact::for_each(const Vector& displacement, std::span<const Indenter> indenters,
-                       const Visit& visit) const {
+                       std::span<const double> least, const Visit& visit) const {
   for (const Own& face : faces_) {
     std::array<Vec3, 6> moved;
     double most = 0.0;
@@ -142,17 +154,22 @@ void Contact::for_each(const Vector& displacement, std::span<const Indenter> ind
         const double s = indenters[i].share;
         const double depth = s * found->depth + (1.0 - s) * face.normals[q].dot(change);
         if (depth <= 0.0) continue;
+        if (!least.empty()) {
+          const auto undeformed = indenters[i].at(face.places[q]);
+          if (!undeformed || undeformed->depth < least[i]) continue;
+        }
         visit(face, q, i, Overlap{depth, s * found->normal - (1.0 - s) * face.normals[q]});
       }
     }
   }
 }
 
-void Contact::add(const Vector& displacement, std::span<const Indenter> indenters, Vector& force,
+void Contact::add(const Vector& displacement, std::span<const Indenter> indenters,
+                  std::span<const double> least, Vector& force,
                   Eigen::SparseMatrix<double>& stiffness, std::vector<Met>& met) const {
   met.assign(indenters.size(), {});
   double* values = stiffness.valuePtr();
-  for_each(displacement, indenters,
+  for_each(displacement, indenters, least,
            [&](const Own& face, std::size_t q, std::size_t i, const Overlap& here) {
              const double pressure = stiffness_ * here.depth;
              const double area = face.areas[q];
@@ -177,7 +194,7 @@ void Contact::add(const Vector& displacement, std::span<const Indenter> indenter
 
 double Contact::energy(const Vector& displacement, std::span<const Indenter> indenters) const {
   double sum = 0.0;
-  for_each(displacement, indenters,
+  for_each(displacement, indenters, {},
            [&](const Own& face, std::size_t q, std::size_t, const Overlap& here) {
              sum += 0.5 * face.areas[q] * stiffness_ * here.depth * here.depth;
            });
@@ -187,7 +204,7 @@ double Contact::energy(const Vector& displacement, std::span<const Indenter> ind
 namespace {
 
 constexpr double stiff = 100.0;     // penalty over E / h
-constexpr double last_step = 1e-3;  // of the travel: Newton's, what is left is of its square
+constexpr double last_step = 3e-4;  // of the travel: Newton's, what is left is of its square
 constexpr double longest = 0.5;     // of the size: a step's largest change of displacement
 constexpr int most_steps = 40;
 constexpr int most_halvings = 5;
@@ -276,10 +293,11 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
   Vector solution;
   Vector step = Vector::Zero(u.size());
   std::vector<Met> met;
+  const std::vector<double> none, half = contact_.half_depths(indenters);
   for (int i = 0; i < most_steps; ++i) {
     const double least = elements_.assemble(u, force, stiffness_);
     if (!(least > -1.0)) return std::nullopt;
-    contact_.add(u, indenters, force, stiffness_, met);
+    contact_.add(u, indenters, i == 0 ? half : none, force, stiffness_, met);
     for (int d = 0; d < static_cast<int>(u.size()); ++d)
       if (const int unknown = elements_.unknown(d); unknown >= 0) right[unknown] = -force[d];
     if (!factor()) return std::nullopt;
@@ -291,10 +309,10 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
       if (const int unknown = elements_.unknown(d); unknown >= 0) step[d] = solution[unknown];
     elements_.advance(u, step, share);
     u += share * step;
-    if (most > last_step * body_.travel) continue;
+    if (i == 0 || most > last_step * body_.travel) continue;
     const double folded = elements_.assemble(u, force, stiffness_);
     if (!(folded > 0.0)) return std::nullopt;
-    contact_.add(u, indenters, force, stiffness_, met);
+    contact_.add(u, indenters, none, force, stiffness_, met);
     Answer answer;
     double work = 0.0;
     for (std::size_t i = 0; i < met.size(); ++i) {

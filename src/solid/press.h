@@ -62,9 +62,15 @@ class Contact {
   // Adds the gradient of the penalty's energy at `displacement` (m), and Gauss and Newton's part of
   // its second derivative. The rest, the pressure times the curvature of the indenter, is negative:
   // far from equilibrium the stiffness would not be positive definite, and near it Newton's steps
-  // converge as well without.
-  void add(const Vector& displacement, std::span<const Indenter> indenters, Vector& force,
-           Eigen::SparseMatrix<double>& stiffness, std::vector<Met>& met) const;
+  // converge as well without. Unless `least` (m, one per indenter) is empty, points that overlap
+  // the undeformed body less than that are left out.
+  void add(const Vector& displacement, std::span<const Indenter> indenters,
+           std::span<const double> least, Vector& force, Eigen::SparseMatrix<double>& stiffness,
+           std::vector<Met>& met) const;
+
+  // Half of every indenter's deepest overlap with the undeformed body, m: where it is more, Hertz's
+  // contact is, half of the area that overlaps.
+  [[nodiscard]] std::vector<double> half_depths(std::span<const Indenter> indenters) const;
 
   // J, whose gradient add() adds.
   [[nodiscard]] double energy(const Vector& displacement,
@@ -88,7 +94,7 @@ class Contact {
   // Calls visit(face, point, indenter, overlap) for every overlap.
   template <class Visit>
   void for_each(const Vector& displacement, std::span<const Indenter> indenters,
-                const Visit& visit) const;
+                std::span<const double> least, const Visit& visit) const;
 
   std::vector<Own> faces_;
   double stiffness_ = 0.0;

@@ -171,7 +171,7 @@ TEST(SolidContact, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForceOfFlat
     force.setZero(u.size());
     matrix = stiffness;
     matrix *= 0.0;
-    contact.add(u, fingers, force, matrix, met);
+    contact.add(u, fingers, {}, force, matrix, met);
   };
   Vector force;
   add(at, force, other);
