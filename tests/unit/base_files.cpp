@@ -134,7 +134,7 @@ TEST_F(Files, AGrowingFileHasWholeLinesOnAFullDisk) {
     GrowingFile file(path_);
     file.append("one\n");
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    const std::string said = test::refusal([&] { file.append("a long line\n"); });
+    const std::string said = test::refusal<SystemError>([&] { file.append("a long line\n"); });
     limit.rlim_cur = most;
     ::setrlimit(RLIMIT_FSIZE, &limit);
     file.append("two\n");
