@@ -33,10 +33,9 @@ const CLI::Option* find_option(const Options& options, const std::string& name) 
 std::vector<std::string> long_names(const Options& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options)
-    for (const std::string& name : option->get_lnames())
-      if (std::find(names.begin(), names.end(), "--" + name) ==
-          names.end())  // every verb has --help
-        names.push_back("--" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (auto name = names.begin(); name != names.end(); ++name)  // every verb has its own --help
+    names.erase(std::remove(name + 1, names.end(), *name), names.end());
   return names;
 }
 
