@@ -335,10 +335,10 @@ void WholeFolder::open() {
   }
 }
 
-void WholeFolder::write(const std::string& name, std::string_view content) {
+void WholeFolder::write(const std::string& name, std::string_view content, std::string hash) {
   make_folders(fs::path(file(name)).parent_path().string());
   write_atomically(file(name), content, Disk::later);
-  files_.push_back({name, sha256(content)});
+  files_.push_back({name, hash.empty() ? sha256(content) : std::move(hash)});
 }
 
 void WholeFolder::add(const std::vector<std::string>& names) {

@@ -51,8 +51,9 @@ class WholeFolder {
   // The partial folder, and the path of a file in it.
   [[nodiscard]] const std::string& partial() const { return partial_; }
   [[nodiscard]] std::string file(const std::string& name) const { return partial_ + "/" + name; }
-  // Writes a file of the result, which put() waits for. Throws SystemError.
-  void write(const std::string& name, std::string_view content);
+  // Writes a file of the result, which put() waits for; `hash` is its sha256() where that is known.
+  // Throws SystemError.
+  void write(const std::string& name, std::string_view content, std::string hash = {});
   // Adds existing files of the partial folder to the list. Throws InputError if one is missing.
   void add(const std::vector<std::string>& names);
   [[nodiscard]] const std::vector<HashedFile>& files() const { return files_; }

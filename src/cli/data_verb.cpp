@@ -31,10 +31,13 @@ const char* form_of(const RawTable& table) {
   return "a table in text";
 }
 
+using Details = std::vector<std::pair<std::string, Talk::Value>>;
+
 // `2  Load (uN)  uN, a force  from 0 to 1.5`
-std::string column_line(const RawTable& table, std::size_t index) {
+std::string column_line(const RawTable& table, std::size_t index, const Talk& talk) {
   const std::string name =
       index < table.names.size() ? table.names[index] : std::string("without a name");
+  Details details{{"number", index + 1}, {"name", index < table.names.size() ? name : ""}};
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   std::size_t missing = 0;
@@ -58,19 +61,25 @@ std::string column_line(const RawTable& table, std::size_t index) {
     line +=
         ": " + (unit->text.empty() ? "a pure number"
                                    : unit->text + ", " + dimension_name(unit->factor.dimension));
+    details.emplace_back("unit", unit->text);
   } else {
     line += ": no unit known";
   }
-  if (low <= high) line += ", from " + rounded_text(low) + " to " + rounded_text(high);
+  if (low <= high) {
+    line += ", from " + rounded_text(low) + " to " + rounded_text(high);
+    details.insert(details.end(), {{"low", low}, {"high", high}});
+  }
   if (missing > 0) line += ", " + std::to_string(missing) + " missing";
   if (words > 0)
     line +=
         ", " + std::to_string(words) + (words == 1 ? " word, `" : " words such as `") + word + "`";
+  details.insert(details.end(), {{"missing", missing}, {"words", words}});
+  talk.event("column", details);
   return line + "\n";
 }
 
 // The parts of a column `segment` or `step`, in the order of the file.
-std::string segment_lines(const RawTable& table) {
+std::string segment_lines(const RawTable& table, const Talk& talk) {
   for (const char* name : {"segment", "step"}) {
     const auto found = measured::columns_named(table, name);
     if (found.size() != 1) continue;
@@ -80,6 +89,7 @@ std::string segment_lines(const RawTable& table) {
     for (std::size_t i = 1; i <= table.rows.size(); ++i) {
       const std::string& value = table.rows[from].fields[found[0]].text;
       if (i < table.rows.size() && table.rows[i].fields[found[0]].text == value) continue;
+      talk.event("segment", {{"name", value}, {"first_row", from + 1}, {"last_row", i}});
       if (++count <= 12)
         text += "segment `" + value + "`: rows " + std::to_string(from + 1) + " to " +
                 std::to_string(i) + "\n";
@@ -99,11 +109,15 @@ std::string quoted(const std::string& word) {
 // Contact point, baseline and noise of a force over a length. Both follow from the shape of a
 // paraboloid's curve, whatever its radius; `round` says whether that describes the
 // whole curve.
-std::string contact_lines(const measured::MeasuredCurve& curve, bool& round) {
+std::string contact_lines(const measured::MeasuredCurve& curve, bool& round, const Talk& talk) {
   try {
     const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
     std::string text;
     round = fit.r2 >= 0.9 && !fit.gave_way;
+    Details details{{"round_tip", round}, {"r2", fit.r2}, {"scatter_N", fit.rmse}};
+    if (fit.parameters.size() > 1) details.emplace_back("point_mm", fit.parameters[1].estimate);
+    if (fit.parameters.size() > 2) details.emplace_back("offset_N", fit.parameters[2].estimate);
+    talk.event("contact", details);
     if (fit.r2 < 0.9)
       return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";
     if (fit.parameters.size() > 1)
@@ -116,7 +130,9 @@ std::string contact_lines(const measured::MeasuredCurve& curve, bool& round) {
     for (const std::string& note : fit.notes) text += note + "\n";
     return text;
   } catch (const InputError& error) {
-    return "no contact point: " + error.problems().front().message + "\n";
+    const std::string& why = error.problems().front().message;
+    talk.event("contact", {{"round_tip", false}, {"why", why}});
+    return "no contact point: " + why + "\n";
   }
 }
 
@@ -150,7 +166,7 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
 
 }  // namespace
 
-int perform(const Data& command, const Arguments&, const Talk&) {
+int perform(const Data& command, const Arguments&, const Talk& talk) {
   const RawTable table =
       measured::raw_table(read_text(command.data), command.data, command.columns);
   std::string text = command.data + ": " + form_of(table) + ", " +
@@ -158,23 +174,37 @@ int perform(const Data& command, const Arguments&, const Talk&) {
                      (table.rows.size() == 1 ? " row" : " rows") + " from line " +
                      std::to_string(table.rows.front().line) + " to " +
                      std::to_string(table.rows.back().line) + "\n";
-  for (const std::string& note : table.notes) text += note + "\n";
-  for (std::size_t i = 0; i < table.width(); ++i) text += column_line(table, i);
-  text += segment_lines(table);
+  talk.event("table", {{"file", command.data},
+                       {"form", form_of(table)},
+                       {"rows", table.rows.size()},
+                       {"first_line", as_index(table.rows.front().line)},
+                       {"last_line", as_index(table.rows.back().line)}});
+  const auto note = [&](const std::string& sentence) {
+    text += sentence + "\n";
+    talk.event("note", {{"text", sentence}});
+  };
+  for (const std::string& sentence : table.notes) note(sentence);
+  for (std::size_t i = 0; i < table.width(); ++i) text += column_line(table, i, talk);
+  text += segment_lines(table, talk);
   bool round = true;
   try {
     const measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
     text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
-    for (const std::string& note : curve.notes)
-      if (std::find(table.notes.begin(), table.notes.end(), note) == table.notes.end())
-        text += note + "\n";
+    talk.event("curve", {{"x", curve.x_axis.column}, {"y", curve.y_axis.column}});
+    for (const std::string& sentence : curve.notes)
+      if (std::find(table.notes.begin(), table.notes.end(), sentence) == table.notes.end())
+        note(sentence);
     if (curve.x_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension)
-      text += contact_lines(curve, round);
-    text += "next: " + next_line(command, curve, round) + "\n";
+      text += contact_lines(curve, round, talk);
+    const std::string next = next_line(command, curve, round);
+    text += "next: " + next + "\n";
+    talk.event("next", {{"command", next}});
   } catch (const InputError& error) {
-    text += std::string("to be decided: ") + error.problems().front().message + "\n";
+    const std::string& what = error.problems().front().message;
+    text += "to be decided: " + what + "\n";
+    talk.event("undecided", {{"text", what}});
   }
-  print_text(text);
+  if (!talk.json()) print_text(text);
   return exit_good;
 }
 

@@ -129,7 +129,9 @@ int perform(const Open& command, const Arguments&, const Talk& talk) {
   const bool shown = has_display() && [&] {
     return run_process({.argv = {"xdg-open", page}}).good();
   }();
-  if (shown)
+  if (talk.json())
+    talk.event("page", {{"path", page}, {"shown", shown}});
+  else if (shown)
     talk.say(page + " is shown");
   else
     print(page + "\n");

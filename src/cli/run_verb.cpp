@@ -84,8 +84,8 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   const auto finished = [&](std::size_t i, const record::CaseRecord& record) {
     if (family.base.output.fits && record.outcome != record::Outcome::interrupted)
       fits_of[i] = fit::case_fits(scenes[i].scenario, record);
-    const std::lock_guard lock(one_at_a_time);
     folder.keep(i, record);
+    const std::lock_guard lock(one_at_a_time);
     ++done;
     talk.event("case", {{"scenario", family.name},
                         {"case", record.name},

@@ -305,13 +305,18 @@ int sweep_slurm(const Sweep& command, const Talk& talk) {
               " tasks; `--chunk " +
               std::to_string((plan.count() + sweep::usual_array - 1) / sweep::usual_array) +
               "` makes at most " + std::to_string(sweep::usual_array));
-  const std::string tasks =
-      sweep::number_ranges(sweep::unfinished_parts(plan, sweep::SweepResults(plan), job.tasks), 0);
-  if (tasks.empty()) {
+  const std::vector<std::size_t> parts =
+      sweep::unfinished_parts(plan, sweep::SweepResults(plan), job.tasks);
+  const std::string call =
+      "sbatch --array=" + sweep::number_ranges(parts, 0) + " " + sweep::shell_word(path);
+  talk.event("submit", {{"command", parts.empty() ? "" : call},
+                        {"job", path},
+                        {"tasks", job.tasks},
+                        {"unfinished", parts.size()}});
+  if (parts.empty())
     talk.say(command.subject + ": every case has a row; there is nothing to submit");
-    return exit_good;
-  }
-  print("sbatch --array=" + tasks + " " + sweep::shell_word(path) + "\n");
+  else if (!talk.json())
+    print(call + "\n");
   return exit_good;
 }
 

@@ -34,6 +34,8 @@ std::vector<std::string> long_names(const Options& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options)
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (auto name = names.begin(); name != names.end(); ++name)  // every verb has its own --help
+    names.erase(std::remove(name + 1, names.end(), *name), names.end());
   return names;
 }
 
@@ -54,6 +56,44 @@ std::string unknown_option(const CLI::App& verb, const std::string& name, const 
       return "option `" + name + "` stands before its verb; write it as `palpate " + inner +
              " ... " + name + "`";
   return "unknown option `" + name + "`" + did_you_mean(name, long_names(known));
+}
+
+// The library's text on an option or a word, in this program's words. Its options have names, but
+// for hidden ones.
+std::string reason(const std::string& what) {
+  const auto cut = [&](std::string_view mark, std::string& before, std::string& after) {
+    const std::size_t at = what.find(mark);
+    if (at == std::string::npos) return false;
+    before = what.substr(0, at);
+    after = what.substr(at + mark.size());
+    return true;
+  };
+  std::string name;
+  std::string rest;
+  if (const std::size_t range = what.rfind(" not in range ");
+      range != std::string::npos && cut(": Value ", name, rest)) {
+    std::vector<std::string> ends = split(what.substr(range + 14), ' ');  // A to B
+    for (std::string& end : ends)
+      if (const auto number = leading_number(end)) end = rounded_text(number->value, 10);
+    return ticked(name) + " wants a number from " + joined(ends, " ") + ", got " +
+           ticked(rest.substr(0, rest.rfind(" not in range ")));
+  }
+  if (cut(": At Most 1 required but received ", name, rest))
+    return ticked(name) + " is given " + rest + " times; give it once";
+  if (what.ends_with(" missing") && cut(": 1 required ", name, rest))
+    return ticked(name) + " wants a value behind it";
+  if (cut(" requires ", name, rest)) return ticked(name) + " is used only with " + ticked(rest);
+  if (cut(" excludes ", name, rest)) return ticked(name) + " does not go with " + ticked(rest);
+  if (const std::size_t colon = what.find(": ");
+      what.ends_with("}") && colon != std::string::npos && cut(" not in {", name, rest)) {
+    const std::string option = name.substr(0, colon);
+    return (option.empty() ? "" : ticked(option) + " got ") + ticked(name.substr(colon + 2)) +
+           ", which is none of " + joined(split(rest.substr(0, rest.size() - 1), ','), ", ");
+  }
+  if (cut(" not expected: ", name, rest))
+    return (name.ends_with("were") ? "these words are too many: `" : "this word is too many: `") +
+           rest + "`";
+  return what;
 }
 
 }  // namespace
@@ -98,7 +138,7 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
     return "`" + command + "` wants a verb: " + joined(verb_names(*asked), ", ") + help;
   if (what.ends_with(required))
     return "`" + command + "` lacks `" + what.substr(0, what.size() - required.size()) + "`" + help;
-  return "`" + command + "` cannot be read: " + what + help;
+  return "`" + command + "` cannot be read: " + reason(what) + help;
 }
 
 }  // namespace palpate::commands

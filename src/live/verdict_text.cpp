@@ -1,4 +1,5 @@
 // A verdict in words, and as findings.
+#include <array>
 #include <cmath>
 
 #include "base/text.h"
@@ -15,6 +16,13 @@ std::string force_text(double force) { return text_of(force, 3) + " N"; }
 std::string millinewtons(double force) { return text_of(1e3 * force) + " mN"; }
 std::string length_text(double length) { return text_of(1e3 * length) + " mm"; }
 std::string percent(double share) { return text_of(100.0 * share) + " %"; }
+
+// In the order of Cause.
+constexpr std::array names{
+    "no_specimen", "wrong_sign",  "wrong_tare", "wrong_surface", "wrong_stiffness",
+    "outliers",    "drift",       "friction",   "lag",           "lost_force",
+    "overload",    "short_press", "noise"};
+static_assert(names.size() == static_cast<std::size_t>(Cause::noise) + 1);
 
 // What is wrong, and what to do about it.
 std::string cause_clause(Cause cause, const Verdict& verdict) {
@@ -103,26 +111,8 @@ std::vector<record::Finding> verdict_findings(const Verdict& verdict) {
   using Outcome = Verdict::Outcome;
   if (verdict.outcome == Outcome::not_judged) return {};
   std::string causes;
-  const auto name = [](Cause cause) {
-    switch (cause) {
-      case Cause::no_specimen: return "no_specimen";
-      case Cause::wrong_sign: return "wrong_sign";
-      case Cause::wrong_tare: return "wrong_tare";
-      case Cause::wrong_surface: return "wrong_surface";
-      case Cause::wrong_stiffness: return "wrong_stiffness";
-      case Cause::outliers: return "outliers";
-      case Cause::drift: return "drift";
-      case Cause::friction: return "friction";
-      case Cause::lag: return "lag";
-      case Cause::lost_force: return "lost_force";
-      case Cause::overload: return "overload";
-      case Cause::short_press: return "short_press";
-      case Cause::noise: return "noise";
-    }
-    return "";
-  };
   for (const Cause cause : verdict.causes)
-    causes += (causes.empty() ? "" : " ") + std::string(name(cause));
+    causes += std::string(causes.empty() ? "" : " ") + names[static_cast<std::size_t>(cause)];
   if (!verdict.explained) causes += causes.empty() ? "unexplained" : " unexplained";
   std::vector<record::Finding> findings;
   findings.push_back({"measured_verdict", verdict.outcome == Outcome::agrees

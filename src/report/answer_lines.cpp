@@ -2,13 +2,13 @@
 #include "report/answer_lines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
-#include <utility>
-#include <variant>
 
 #include "base/text.h"
+#include "report/run_page.h"
 
 namespace palpate::report {
 namespace {
@@ -20,12 +20,6 @@ std::string without_numbers(std::string sentence) {
   return sentence;
 }
 
-const record::Cell* finding(const record::CaseRecord& record, std::string_view name) {
-  for (const record::Finding& one : record.findings)
-    if (one.name == name) return &one.value;
-  return nullptr;
-}
-
 // The case with the smallest and that with the largest value of a finding.
 struct Range {
   const record::CaseRecord* least = nullptr;
@@ -35,9 +29,8 @@ struct Range {
 };
 
 std::optional<double> number(const record::CaseRecord& record, std::string_view name) {
-  const record::Cell* cell = finding(record, name);
-  const double* value = cell == nullptr ? nullptr : std::get_if<double>(cell);
-  return value == nullptr ? std::nullopt : std::optional(*value);
+  const double value = finding_number(record, name);
+  return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 // The range over all cases for which `value_of` has a value; nothing if there is none.
@@ -71,8 +64,7 @@ std::string range_text(const char* what, const Range& range, const char* unit) {
 std::string models(const std::vector<record::CaseRecord>& records) {
   std::map<std::string, int> counts;
   for (const record::CaseRecord& record : records)
-    if (const record::Cell* model = finding(record, "model"))
-      ++counts[std::get<std::string>(*model)];
+    if (const std::string model = finding_word(record, "model"); !model.empty()) ++counts[model];
   std::string text = "Models: ";
   for (const auto& [model, count] : counts)
     text += (text.ends_with(": ") ? "" : ", ") + model + " in " + std::to_string(count) + " of " +

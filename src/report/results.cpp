@@ -1,6 +1,7 @@
 // Writes the files of a result.
 #include "report/results.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -98,18 +99,6 @@ std::vector<record::CaseRecord> rows_of(const record::CaseRecord& record) {
   return rows;
 }
 
-// The text of curve_table(), case after case: the table of all takes ten times the memory.
-std::string curve_text(const scenario::Family& family,
-                       const std::vector<record::CaseRecord>& records) {
-  std::string text;
-  for (const record::CaseRecord& record : records) {
-    const std::string one = record::csv_text(curve_table(family, rows_of(record)));
-    if (text.empty()) text.reserve(records.size() * one.size());
-    text += std::string_view(one).substr(text.empty() ? 0 : one.find('\n') + 1);
-  }
-  return text;
-}
-
 // Writes what a result has beside its tables, an interrupted one for a tenth of a second.
 class Extras {
  public:
@@ -179,24 +168,45 @@ std::vector<std::string> ResultFolder::rows_left_beside() const {
 }
 
 void ResultFolder::keep(std::size_t index, const record::CaseRecord& record) {
-  // To write and remove three files takes longer than to compute such a case again.
-  constexpr double worth_keeping = 0.01;  // s
-  const bool quick = record.seconds > 0.0 && record.seconds < worth_keeping;
-  if (record.outcome == record::Outcome::interrupted || quick) return;
-  const std::string name = numbered("case", index + 1, "");
-  const std::string folder = folder_.file(name);
-  if (!cases_kept_) folder_.keep(name + "/findings.csv");  // written last
+  const bool ended = record.outcome != record::Outcome::interrupted;
+  const std::string curve = curve_name(*family_);
+  std::string rows;
+  if (ended && !grown_.contains(curve))
+    rows = record::csv_text(curve_table(*family_, rows_of(record)));
+  const std::lock_guard lock(keeping_);
+  if (ended) keep_for_a_kill(numbered("case", index + 1, "") + "/", curve, record, rows);
+  ahead_.emplace(index, std::move(rows));
+  for (; ahead_.contains(next_); ++next_)
+    rows_hash_.add(add_rows(rows_, ahead_.extract(next_).mapped()));
+}
+
+// Quick cases together, a fiftieth of the work so far: to write and remove two files of each takes
+// longer than to compute it again.
+void ResultFolder::keep_for_a_kill(const std::string& folder, const std::string& curve,
+                                   const record::CaseRecord& record, const std::string& rows) {
+  record::CaseRecord found;
+  found.name = record.name;
+  found.findings = record.findings;
+  unkept_.push_back(std::move(found));
+  add_rows(unkept_rows_, rows);
+  seconds_ += record.seconds;
+  const double worth_keeping = std::clamp(0.02 * seconds_, 0.05, 1.0);  // s
+  if (record.seconds > 0.0 && seconds_ - kept_seconds_ < worth_keeping) return;
+  kept_seconds_ = seconds_;
+  if (!cases_kept_) folder_.keep(folder + "findings.csv");  // written last
   cases_kept_ = true;
-  make_folders(folder);
-  const std::vector<record::CaseRecord> one = rows_of(record);
-  if (!record.contact.empty() && !grown_.contains("force_indentation.csv"))
-    write_atomically(folder + "/force_indentation.csv",
-                     record::csv_text(record::contact_table(one)), Disk::later);
-  if (!record.strain.empty())
-    write_atomically(folder + "/strain_time.csv", record::csv_text(record::strain_table(one)),
-                     Disk::later);
-  write_atomically(folder + "/findings.csv", record::csv_text(findings_table(*family_, one)),
-                   Disk::later);
+  make_folders(folder_.file(folder));
+  if (!rows.empty()) write_atomically(folder_.file(folder + curve), unkept_rows_, Disk::later);
+  write_atomically(folder_.file(folder + "findings.csv"),
+                   record::csv_text(findings_table(*family_, unkept_)), Disk::later);
+  unkept_.clear();
+  unkept_rows_.clear();
+}
+
+std::string_view ResultFolder::add_rows(std::string& all, std::string_view text) {
+  if (!all.empty()) text.remove_prefix(std::min(text.find('\n') + 1, text.size()));
+  all += text;
+  return text;
 }
 
 namespace {
@@ -250,8 +260,10 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   const std::string curve = curve_name(*family_);
   if (grown_.contains(curve))
     folder_.add({curve});
-  else
-    folder_.write(curve, curve_text(*family_, records));
+  else {
+    for (const auto& [index, rows] : ahead_) rows_hash_.add(add_rows(rows_, rows));
+    folder_.write(curve, rows_, rows_hash_.digits());
+  }
   for (const auto& [name, table] : short_files(*family_, records, fits))
     folder_.write(name, record::csv_text(table));
   for (const std::string& name : grown_)

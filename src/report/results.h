@@ -1,8 +1,11 @@
 // The folder of a result: its files, and those that are written while the run continues.
 #pragma once
 
+#include <map>
+#include <mutex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -47,21 +50,39 @@ class ResultFolder {
   // runs that were killed, or that are still running.
   [[nodiscard]] std::vector<std::string> rows_left_beside() const;
 
-  // Writes a finished case into the partial folder. Calls must not overlap.
+  // Takes a finished case: its rows as text, and a copy in the partial folder, quick cases
+  // together. Several threads may call this at once.
   void keep(std::size_t index, const record::CaseRecord& record);
 
-  // Writes the result and moves it to OUT/NAME. Returns warnings, for example that gnuplot is
-  // missing, or that a complete result has appeared at OUT/NAME in the meantime.
+  // Writes the result of the records, each of which was kept, and moves it to OUT/NAME. Returns
+  // warnings, for example that gnuplot is missing, or that a complete result has appeared at
+  // OUT/NAME in the meantime.
   std::vector<std::string> finish(const std::vector<record::CaseRecord>& records,
                                   const std::vector<fit::NamedFit>& fits, const Origin& origin);
 
   [[nodiscard]] const std::string& path() const { return folder_.path(); }
 
  private:
+  void keep_for_a_kill(const std::string& folder, const std::string& curve,
+                       const record::CaseRecord& record, const std::string& rows);
+  // Adds a table to the text of one with the same header; returns what was added.
+  static std::string_view add_rows(std::string& all, std::string_view text);
+
   const scenario::Family* family_;
   WholeFolder folder_;
+  std::mutex keeping_;
   bool cases_kept_ = false;
+  // Cases since the last that were written for a kill: names and findings, and rows.
+  std::vector<record::CaseRecord> unkept_;
+  std::string unkept_rows_;
+  double seconds_ = 0.0;         // s, of all cases
+  double kept_seconds_ = 0.0;    // s, of those that were written
   std::set<std::string> grown_;  // names
+  // The file of all curves, and its hash, as far as cases have ended in their order.
+  std::string rows_;
+  Sha256 rows_hash_;
+  std::size_t next_ = 0;                      // case
+  std::map<std::size_t, std::string> ahead_;  // texts of later cases
 };
 
 }  // namespace palpate::report

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -120,6 +121,34 @@ TEST_F(Files, APipeIsRead) {
   });
   EXPECT_EQ(read_text(path_).size(), 300'000U);
   writer.join();
+}
+
+// A full disk in the middle of a line: the line is cut off again, and the file goes on behind it.
+TEST_F(Files, AGrowingFileHasWholeLinesOnAFullDisk) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    ::getrlimit(RLIMIT_FSIZE, &limit);
+    const rlim_t most = std::exchange(limit.rlim_cur, 10);
+    GrowingFile file(path_);
+    file.append("one\n");
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string said = test::refusal<SystemError>([&] { file.append("a long line\n"); });
+    limit.rlim_cur = most;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    file.append("two\n");
+    ::_exit(said.ends_with("cannot be written: File too large") ? 2 : 3);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_EQ(read_text(path_), "one\ntwo\n");
+}
+
+TEST_F(Files, ADeviceThatNeverEndsHasNoHash) {
+  EXPECT_EQ(test::refusal([] { (void)file_sha256("/dev/zero"); }),
+            "/dev/zero: has more than 64 MiB, the most that is read; give a smaller file");
 }
 
 TEST_F(Files, AGrowingFileIsNew) {

@@ -469,6 +469,47 @@ TEST_F(WholeFolders, AFolderThatTakesNothingIsAnErrorAndTheOldResultStays) {
   EXPECT_EQ(names_in_out().size(), 2U) << "what was written is whole and stays";
 }
 
+// What was kept for a kill only does not become part of a result by an error of the disk that
+// passes.
+TEST_F(WholeFolders, AnErrorThatPassesLeavesNothingUnlisted) {
+  bool reached = true;
+  for (int call = 1; reached; ++call) {
+    fs::remove_all(root_ / "out");
+    WholeFolder folder(place_, "result", Replace::any);
+    folder.open();
+    folder.write("a.csv", "1");
+    write(folder.file("case_001/findings.csv"), "1");
+    test::file_faults = {.fail_at = call, .fail_with = EIO};
+    const std::string said = refusal([&] { (void)folder.put(State::complete); });
+    reached = test::file_faults.calls >= call;
+    test::file_faults = {};
+    if (said == "accepted") {
+      EXPECT_EQ(names_in(place_), (Names{"a.csv", "contents.sha256"})) << "at call " << call;
+    }
+  }
+}
+
+// So that power that is lost leaves a whole result, each of its files is on the disk before.
+TEST_F(WholeFolders, ACompleteResultWaitsForTheDisk) {
+  const auto calls = [&](State content) {
+    fs::remove_all(root_ / "out");
+    test::file_faults = {};
+    (void)put({{"a.csv", "1"}, {"b.csv", "2"}, {"c.csv", "3"}}, Replace::any, content);
+    return test::file_faults.calls;
+  };
+  EXPECT_EQ(calls(State::complete) - calls(State::incomplete), 3 * 2);  // open() and fsync()
+}
+
+TEST_F(WholeFolders, ALinkInThePlaceOfAFileIsTheUsers) {
+  (void)put({{"a.csv", "1"}});
+  write(root_ / "mine.csv", "1");
+  fs::remove(place_ + "/a.csv");
+  fs::create_symlink(root_ / "mine.csv", place_ + "/a.csv");
+  (void)put({{"a.csv", "2"}});
+  EXPECT_TRUE(fs::is_symlink(place_ + "/a.csv.before"));
+  EXPECT_EQ(read("a.csv"), "2");
+}
+
 TEST_F(WholeFolders, AFullDiskIsAnErrorAndTheOldResultStays) {
   (void)put({{"a.csv", "old"}});
   EXPECT_EQ(in_a_child([&] {

@@ -125,16 +125,34 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
       {{"golden", "add"},
        "`palpate golden add` lacks `scenario`; `palpate golden add --help` shows how to write it"},
       {{"run", "a.toml", "--jobs", "-1"},
-       "`palpate run` cannot be read: --jobs: Value -1 not in range 0 to 1024; `palpate run "
-       "--help` "
-       "shows how to write it"},
+       "`palpate run` cannot be read: `--jobs` wants a number from 0 to 1024, got `-1`; `palpate "
+       "run --help` shows how to write it"},
+      {{"fit", "d.csv", "--x", "h", "--y", "F", "--model", "hertz", "--poisson", "2"},
+       "`palpate fit` cannot be read: `--poisson` wants a number from 0 to 0.5, got `2`; `palpate "
+       "fit --help` shows how to write it"},
       {{"run", "a.toml", "--out"},
-       "`palpate run` cannot be read: --out: 1 required FOLDER missing; `palpate run --help` shows "
-       "how "
-       "to write it"},
+       "`palpate run` cannot be read: `--out` wants a value behind it; `palpate run --help` shows "
+       "how to write it"},
       {{"compare", "a", "b", "c"},
-       "`palpate compare` cannot be read: The following argument was not expected: c; `palpate "
-       "compare --help` shows how to write it"},
+       "`palpate compare` cannot be read: this word is too many: `c`; `palpate compare --help` "
+       "shows how to write it"},
+      {{"run", "a.toml", "--out", "a", "--out", "b"},
+       "`palpate run` cannot be read: `--out` is given 2 times; give it once; `palpate run --help` "
+       "shows how to write it"},
+      {{"run", "a.toml", "--arm"},
+       "`palpate run` cannot be read: `--arm` is used only with `--device`; `palpate run --help` "
+       "shows how to write it"},
+      {{"run", "a.toml", "--device", "replay:a.csv", "--dry-run"},
+       "`palpate run` cannot be read: `--dry-run` does not go with `--device`; `palpate run "
+       "--help` shows how to write it"},
+      {{"run", "a.toml", "--device", "replay:a.csv", "--clock", "slow"},
+       "`palpate run` cannot be read: `slow`, which is none of real, virtual; `palpate run --help` "
+       "shows how to write it"},
+      {{"completion", "csh"},
+       "`palpate completion` cannot be read: `shell` got `csh`, which is none of bash, zsh, fish; "
+       "`palpate completion --help` shows how to write it"},
+      {{"schema", "---"},
+       "unknown option `---`; known: --help, --version, --quiet, --no-color, --json, --csv"},
   };
   for (const auto& [words, sentence] : cases) EXPECT_EQ(refusal(words), sentence);
 }

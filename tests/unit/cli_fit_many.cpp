@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.h"
 #include "record/csv.h"
@@ -100,6 +103,25 @@ TEST_F(FitMany, DataSaysWhatIsUnderstood) {
         "next: palpate fit c.csv --x \"depth (mm)\" --y \"load (N)\" --model hertz --radius \"... "
         "mm\" --poisson 0.5\n"})
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << "\n" << ended.out;
+}
+
+TEST_F(FitMany, DataIsJsonWithNumbers) {
+  write_file(folder_ / "c.csv", press_curve(20e3));
+  std::map<std::string, nlohmann::json> last;  // by event
+  std::istringstream lines(palpate(folder_.path(), {"data", "c.csv", "--json"}).out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto event = nlohmann::json::parse(line);
+    last[event.at("event")] = event;
+  }
+  EXPECT_EQ(last["table"].at("rows"), 61);
+  EXPECT_EQ(last["column"].at("number"), 2);
+  EXPECT_EQ(last["column"].at("unit"), "N");
+  EXPECT_EQ(last["column"].at("missing"), 0);
+  EXPECT_LT(last["column"].at("low"), last["column"].at("high"));
+  EXPECT_EQ(last["curve"].at("x"), "depth (mm)");
+  EXPECT_NEAR(last["contact"].at("point_mm"), 0.3, 1e-6);  // exact data
+  EXPECT_NEAR(last["contact"].at("offset_N"), 0.1, 1e-6);
+  EXPECT_TRUE(last["next"].at("command").get<std::string>().starts_with("palpate fit c.csv"));
 }
 
 // A test to rupture is no press by a ball.

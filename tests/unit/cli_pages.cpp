@@ -141,6 +141,10 @@ TEST(OpenResult, PrintsThePathWithoutADesktop) {
   EXPECT_TRUE(open().out.ends_with("result/figure_a.svg\n"));
   (void)folder.file("result/report.html", "<html/>");
   EXPECT_TRUE(open().out.ends_with("result/report.html\n"));
+  const Ended told = run_program(
+      {.arguments = {"open", "result", "--json"}, .folder = folder.path(), .unset = no_display});
+  EXPECT_TRUE(told.out.starts_with("{\"event\":\"page\",\"path\":\"/")) << told.out;
+  EXPECT_TRUE(told.out.ends_with("/result/report.html\",\"shown\":false}\n")) << told.out;
 
   // A desktop's opener is asked where there is a display.
   (void)folder.file("xdg-open", "#!/bin/sh\nbasename \"$1\" > opened\n");

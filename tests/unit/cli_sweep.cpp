@@ -293,6 +293,12 @@ TEST_F(SweepVerb, SlurmPrintsTheLine) {
   EXPECT_EQ(first.out, "sbatch --array=1-3 " + job);
   ASSERT_EQ(sweep({"run", "out/s_sweep", "--shard", "2/3"}).code, 0);
   EXPECT_EQ(sweep({"slurm", "out/s_sweep", "--chunk", "2"}).out, "sbatch --array=1,3 " + job);
+  const auto told =
+      nlohmann::json::parse(sweep({"slurm", "out/s_sweep", "--chunk", "2", "--json"}).out);
+  EXPECT_EQ(told.at("event"), "submit");
+  EXPECT_EQ(told.at("command").get<std::string>() + "\n", "sbatch --array=1,3 " + job);
+  EXPECT_EQ(told.at("tasks"), 3);
+  EXPECT_EQ(told.at("unfinished"), 2);
   ASSERT_EQ(sweep({"run", "out/s_sweep"}).code, 0);
   const Ended none = sweep({"slurm", "out/s_sweep", "--chunk", "2"});
   EXPECT_EQ(none.out, "");

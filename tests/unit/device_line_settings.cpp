@@ -6,13 +6,18 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "device/line_gauge.h"
 #include "refusal.h"
 #include "temporary_folder.h"
@@ -61,44 +66,123 @@ TEST(LineSettings, AreRefusedAtTheirPlace) {
     EXPECT_NE(refusal(text).find(part), std::string::npos) << text << refusal(text);
 }
 
-// A gauge on a pseudo-terminal that answers at once is asked no more often than `rate` says;
-// however slow this machine is, it takes longer, never less.
-TEST(LineGauge, PollsKeepTheirRate) {
-  const test::TemporaryFolder folder;
-  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-  ASSERT_GE(master, 0);
-  ASSERT_EQ(::grantpt(master), 0);
-  ASSERT_EQ(::unlockpt(master), 0);
-  const std::string port = ::ptsname(master);
-  std::atomic<int> polls = 0;
-  std::atomic<bool> over = false;
-  std::thread answering([&] {
+// A gauge on a pseudo-terminal that answers each `?` by the next of its texts, the last ones by the
+// last.
+class AnsweringGauge {
+ public:
+  explicit AnsweringGauge(std::vector<std::string> texts,
+                          std::chrono::milliseconds takes = std::chrono::milliseconds(0))
+      : texts_(std::move(texts)), takes_(takes) {
+    if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0)
+      throw std::runtime_error("no pseudo-terminal");
+    port_ = ::ptsname(master_);
+    thread_ = std::thread([this] { answer(); });
+  }
+  ~AnsweringGauge() {
+    over_ = true;
+    thread_.join();
+    ::close(master_);
+  }
+  AnsweringGauge(const AnsweringGauge&) = delete;
+  AnsweringGauge& operator=(const AnsweringGauge&) = delete;
+
+  // With these settings besides `poll`.
+  [[nodiscard]] GaugeAddress address(const std::string& settings) const {
+    return {port_, folder_.file("g.toml", settings + "poll = \"?\"\n")};
+  }
+  [[nodiscard]] int polls() const { return polls_; }
+
+ private:
+  void answer() {
     char byte = 0;
-    while (!over) {
-      pollfd waiting{master, POLLIN, 0};
-      if (::poll(&waiting, 1, 20) <= 0 || ::read(master, &byte, 1) != 1 || byte != '?') continue;
-      ++polls;
-      if (::write(master, "1.5\n", 4) != 4) return;
+    while (!over_) {
+      pollfd waiting{master_, POLLIN, 0};
+      if (::poll(&waiting, 1, 20) <= 0 || ::read(master_, &byte, 1) != 1 || byte != '?') continue;
+      const std::string& text = texts_[std::min(as_index(polls_++), texts_.size() - 1)];
+      std::this_thread::sleep_for(takes_);
+      if (::write(master_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) return;
     }
-  });
+  }
+
+  std::vector<std::string> texts_;
+  std::chrono::milliseconds takes_;
+  test::TemporaryFolder folder_;
+  int master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  std::string port_;
+  std::atomic<int> polls_ = 0;
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+constexpr const char* plain = "pattern = \"{force}\"\nforce_unit = \"N\"\nrate = 50\n";
+constexpr const char* timed =
+    "pattern = \"{force} {time}\"\nforce_unit = \"N\"\ntime_unit = \"s\"\nrate = 50\n";
+
+// One that answers at once is asked no more often than `rate` says; however slow this machine is,
+// it takes longer, never less.
+TEST(LineGauge, PollsKeepTheirRate) {
+  const AnsweringGauge device({"1.5\n"});
   constexpr double rate = 50.0;
   constexpr int readings = 10;
-  {
-    Clock clock(Clock::Kind::monotonic);
-    LineGauge gauge({port, folder.file("g.toml",
-                                       "pattern = \"{force}\"\nforce_unit = \"N\"\n"
-                                       "poll = \"?\"\nrate = 50\n")},
-                    clock);
-    const double start = wire_time();
-    for (int heard = 0; heard < readings && wire_time() < start + 20.0;)
-      heard += gauge.sample(1.0).arrival == Arrival::fresh ? 1 : 0;
-    // The first poll may be due at once.
-    EXPECT_GE(wire_time() - start, (readings - 1) / rate);
-    EXPECT_LE(polls, 2 + static_cast<int>((wire_time() - start + 1.0 / rate) * rate));
+  Clock clock(Clock::Kind::monotonic);
+  LineGauge gauge(device.address(plain), clock);
+  const double start = wire_time();
+  for (int heard = 0; heard < readings && wire_time() < start + 20.0;)
+    heard += gauge.sample(1.0).arrival == Arrival::fresh ? 1 : 0;
+  // The first poll may be due at once.
+  EXPECT_GE(wire_time() - start, (readings - 1) / rate);
+  EXPECT_LE(device.polls(), 2 + static_cast<int>((wire_time() - start + 1.0 / rate) * rate));
+}
+
+// The link's opening takes the first answer.
+TEST(LineGauge, IsLostWhereItsClockJumps) {
+  const AnsweringGauge device({"1 0\n", "1 0.02\n", "1 99\n"});
+  Clock clock(Clock::Kind::monotonic);
+  LineGauge gauge(device.address(timed), clock);
+  EXPECT_EQ(gauge.sample(1.0).arrival, Arrival::fresh);
+  for (int i = 0; i < 2; ++i) {
+    const Sample late = gauge.sample(1.0);
+    EXPECT_EQ(late.arrival, Arrival::lost);
+    EXPECT_EQ(late.fault, Fault::clock_jumped);
   }
-  over = true;
-  answering.join();
-  ::close(master);
+}
+
+TEST(LineGauge, TellsAReadingThatComesTwice) {
+  const AnsweringGauge device({"1 0\n", "1 0.02\n", "2 0.02\n", "3 0.04\n"});
+  Clock clock(Clock::Kind::monotonic);
+  LineGauge gauge(device.address(timed), clock);
+  EXPECT_EQ(gauge.sample(1.0).arrival, Arrival::fresh);
+  EXPECT_EQ(gauge.sample(1.0).arrival, Arrival::duplicate);
+  EXPECT_EQ(gauge.sample(1.0).arrival, Arrival::fresh);
+}
+
+// A line that does not match may be an echo of the request: the reply is behind it.
+TEST(LineGauge, WaitsForTheReplyBehindAnEcho) {
+  const AnsweringGauge device({"?\n1.5\n"});
+  Clock clock(Clock::Kind::monotonic);
+  LineGauge gauge(device.address(plain), clock);
+  EXPECT_EQ(gauge.sample(1.0).arrival, Arrival::dropped);
+  EXPECT_EQ(gauge.sample(1.0).force, 1.5);
+  EXPECT_EQ(device.polls(), 2);
+}
+
+// What came behind a reply is not the beginning of the next.
+TEST(LineGauge, ForgetsWhatCameBeforeItAsks) {
+  const AnsweringGauge device({"1.5\n", "1.5\n9", "2.5\n"});
+  Clock clock(Clock::Kind::monotonic);
+  LineGauge gauge(device.address(plain), clock);
+  EXPECT_EQ(gauge.sample(1.0).force, 1.5);
+  EXPECT_EQ(gauge.sample(1.0).force, 2.5);
+}
+
+// At 1 kHz a reply may still take a quarter of a second, as by a radio or a slow gauge.
+TEST(LineGauge, MayTakeLongerThanItsRate) {
+  const AnsweringGauge device({"1.5\n"}, std::chrono::milliseconds(20));
+  Clock clock(Clock::Kind::monotonic);
+  LineGauge gauge(device.address("pattern = \"{force}\"\nforce_unit = \"N\"\nrate = 1000\n"),
+                  clock);
+  EXPECT_EQ(gauge.sample(1.0).arrival, Arrival::fresh);
+  EXPECT_EQ(device.polls(), 2);
 }
 
 }  // namespace

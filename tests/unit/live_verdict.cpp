@@ -147,6 +147,20 @@ TEST(Verdict, NamesADriftAndAnOutlier) {
   }
 }
 
+// The largest of a hundred readings is three standard deviations of the noise from zero, more than
+// the two that a difference is allowed.
+TEST(Verdict, NamesAMissingSpecimenInNoise) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    MeasuredCurve empty = run_with(1.0, as_it_is, seed);
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> scatter(0.0, 30.0 * noise);
+    for (std::vector<double>* readings : {&empty.measured, &empty.free})
+      for (double& reading : *readings) reading += scatter(generator);
+    const Verdict verdict = judge(empty, tolerance);
+    EXPECT_EQ(verdict.causes, std::vector{Cause::no_specimen}) << verdict_sentence(verdict);
+  }
+}
+
 // However far it is: it turns the correlation with the model, and is no turned sign.
 TEST(Verdict, AFarReadingIsNoTurnedSign) {
   MeasuredCurve curve = run_with(0.0, as_it_is, 1);

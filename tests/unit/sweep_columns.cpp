@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/index.h"
 #include "refusal.h"
 #include "scenario_text.h"
 
@@ -77,6 +78,14 @@ TEST(SweepColumns, TakeTheUsualOutputsThatAreWholeAndVary) {
   EXPECT_EQ(columns.factors[1].values, (std::vector<double>{0, 1, 0, 1}));
   EXPECT_EQ(columns.factors[1].words, (Names{"skin", "bone"}));
   EXPECT_TRUE(columns.notes.empty());
+}
+
+TEST(SweepColumns, LeaveOutWhatACompletedCaseLacks) {
+  record::Table table = results();
+  const auto column = as_index(table.find("force_at_2_mm_N"));
+  table.rows[0][column] = 0.5;  // it varies now, and the second case has none
+  for (const OutputColumn& output : sweep_columns(choice(), table).outputs)
+    EXPECT_NE(output.name, "force_at_2_mm_N");
 }
 
 TEST(SweepColumns, AFailedCaseHasNoOutputs) {

@@ -242,6 +242,62 @@ TEST_F(Plans, settings_are_part_of_it) {
   EXPECT_EQ(scenario::make_case(planned.family, 0).scenario.finger.radius, 0.005);
 }
 
+// As by a machine whose numbers are read otherwise.
+TEST_F(Plans, a_case_that_is_not_what_was_planned_is_not_run) {
+  SweepPlan other = plan(formulas);
+  other.ids[1] ^= 1U;
+  EXPECT_EQ(refusal([&] { (void)run(other); }),
+            "case 2 is not what was planned: this machine reads the scenario differently; plan "
+            "anew on this one");
+}
+
+// A case that failed for want of memory, say, and completes when it is tried again.
+TEST_F(Plans, a_case_that_completes_at_its_second_attempt_is_completed) {
+  const SweepPlan six = plan(formulas);
+  {
+    record::Journal journal(six.folder + "/results", "1-of-1", six.hash);
+    journal.add(journal_row({.id = six.ids[2], .outcome = SweepOutcome::failed, .reason = "why"}));
+    journal.sync();
+  }
+  const SweepEnd end = run(six, {.which = SweepTask::Which::failed});
+  EXPECT_EQ(end.completed, 1U);
+  EXPECT_EQ(end.failed, 0U);
+  const SweepResults results(six);
+  EXPECT_EQ(results.at(2).head.outcome, SweepOutcome::completed);
+  EXPECT_EQ(results.at(2).head.attempt, 2U);
+}
+
+TEST_F(Plans, take_over_completed_rows_without_their_past) {
+  SweepOrder first = order(formulas);
+  first.curves = SweepOrder::Curves::kept;
+  const std::string folder = plan_sweep(first).folder;
+  const SweepPlan old = read_plan(folder, "this one");
+  {
+    record::Journal journal(old.folder + "/results", "1-of-1", old.hash);
+    journal.add(journal_row({.id = old.ids[0], .attempt = 3, .curve = {{"step"}, {{1.0}}}}));
+    journal.add(journal_row({.id = old.ids[1], .outcome = SweepOutcome::failed, .reason = "why"}));
+    journal.sync();
+  }
+  SweepOrder second = order(formulas);
+  second.out = (root_ / "new").string();
+  second.reuse = folder;
+  const Planned planned = plan_sweep(second);
+  EXPECT_EQ(planned.reused, 1U);
+  const SweepPlan grown = read_plan(planned.folder, "this one");
+  const SweepResults results(grown);
+  EXPECT_FALSE(results.at(1).known()) << "what failed is run again";
+  ASSERT_TRUE(results.at(0).known());
+  EXPECT_EQ(results.at(0).head.attempt, 1U);
+  EXPECT_TRUE(results.row(0).curve.columns.empty()) << "the new plan keeps none";
+  // The other way round there are no curves to take.
+  second = first;
+  second.out = (root_ / "third").string();
+  second.reuse = planned.folder;
+  EXPECT_EQ(refusal([&] { (void)plan_sweep(second); }),
+            "new/s_sweep: keeps no curves, and the new plan does; plan without `--curves`, or "
+            "without `--reuse`");
+}
+
 TEST_F(Plans, what_has_changed_is_refused) {
   (void)plan_sweep(order(formulas));
   const fs::path folder = root_ / "out/s_sweep";

@@ -233,6 +233,16 @@ TEST(Sensitivity, LeavesOutBlocksWithAFailedCaseAndSaysSo) {
             "sensitivity of `y`: 2 of 50 blocks of 5 cases are left out, b");
 }
 
+TEST(Sensitivity, NeedsTwoCompleteBlocks) {
+  auto values = saltelli_values(ishigami, 3, 2, 1);
+  values[7] = std::nan("");
+  const Sensitivity found = sensitivity(columns_of(Kind::saltelli, {0, 0, 0}, values));
+  EXPECT_TRUE(found.indices.empty());
+  ASSERT_EQ(found.notes.size(), 2u);
+  EXPECT_EQ(found.notes[1],
+            "sensitivity of `y`: at least two complete blocks are needed; run what is missing");
+}
+
 TEST(Sensitivity, OfAGridWithAGapIsRefusedWithARemedy) {
   const Sensitivity found =
       sensitivity(columns_of(Kind::grid, {2, 2}, {1.0, std::nan(""), 3.0, 4.0}));
