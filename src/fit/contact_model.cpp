@@ -314,10 +314,8 @@ class ContactFit {
       }
       return true;
     };
-    // Numbers near 0 begin at 0, so that the search does not scale by them.
-    const auto start = [](double value) { return std::abs(value) < 1e-3 ? 0.0 : value; };
-    std::vector<double> unknowns{1.0, guess.contact / range, start(guess.offset),
-                                 start(guess.tilt)};
+    std::vector<double> unknowns{1.0, start_near(guess.contact / range), start_near(guess.offset),
+                                 start_near(guess.tilt)};
     const auto fitted = [&](auto& all) {
       if (lead == 1) all.erase(all.begin() + 1);
       all.resize(count);

@@ -17,6 +17,8 @@ struct DataLayout {
   int skip = -1;                 // lines to skip; the table begins there or below
   std::string separator = {};    // `,` `;` `tab` `blank`
   std::string decimal = {};      // `.` or `,`
+  enum class Curve { press, relaxation, creep };
+  Curve curve = Curve::press;    // what x and y are where no column is chosen
   std::string compression = {};  // sign of the load: `positive` or empty, `negative`, `auto`
   std::string segment = {};  // `approach`, `retract`, or a value of the column `segment` or `step`
   std::string usual = "approach";  // the segment of a force over a length where none is chosen

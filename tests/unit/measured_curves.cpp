@@ -299,6 +299,28 @@ TEST(Measured, RefusalsHavePlaces) {
   EXPECT_THROW(static_cast<void>(read_measured("/nowhere/data.csv", {})), InputError);
 }
 
+// Without a column of segments the approach ends at the largest change of load, which in a file of
+// the retract alone is the pull-off.
+TEST(Measured, ARetractAloneIsKeptWhole) {
+  const char* adhesive = "x_mm,F_N\n3,9\n2,5\n1,2\n0,-3\n-1,0\n-2,0\n";
+  const MeasuredCurve curve = read(adhesive, {.segment = "retract"});
+  EXPECT_EQ(curve.y, (Numbers{9, 5, 2, -3, 0, 0}));
+  EXPECT_EQ(curve.notes,
+            (std::vector<std::string>{"`x_mm` goes one way only, and its load changes most at its "
+                                      "first rows: all of them are taken as the retract"}));
+  // A height that grows as the tip withdraws, under a load that reads negative in compression.
+  EXPECT_EQ(read("x_mm,F_N\n-3,-9\n-2,-5\n-1,-2\n0,3\n1,0\n2,0\n", {.segment = "retract"}).y,
+            (Numbers{-9, -5, -2, 3, 0, 0}));
+  // Without adhesion the largest change is that of any free row, also of the last.
+  EXPECT_EQ(read("x_mm,F_N\n3,9\n2,5\n1,2\n0,0\n-1,0.1\n-2,-0.1\n", {.segment = "retract"}).y.size(),
+            6U);
+  // An approach whose specimen gave way, and a whole press, end at their largest load.
+  EXPECT_EQ(read("x_mm,F_N\n0,0\n1,1\n2,4\n3,9\n4,5\n", {.segment = "retract"}).y, Numbers{5});
+  EXPECT_EQ(read("x_mm,F_N\n0,0\n1,3\n2,4\n1,2\n0,0\n", {.segment = "retract"}).y, (Numbers{2, 0}));
+  // Over time every record goes one way.
+  EXPECT_EQ(read("t_s,F_N\n0,0\n1,7\n2,9\n3,5\n", {.segment = "retract"}).y, Numbers{5});
+}
+
 TEST(Measured, CompressionThatReadsNegative) {
   const DataLayout automatic{.compression = "auto"};
   const std::string machine = "Extension (mm),Load (N)\n0,0.02\n-1,-1\n-2,-4\n-1,-0.9\n";
