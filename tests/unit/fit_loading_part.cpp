@@ -44,6 +44,32 @@ TEST(StepOrigin, OfARelaxation) {
   EXPECT_NEAR(at(0.0, 2.0).best.first, 2.0, 1e-9);
 }
 
+// Rheometers count the time from the step and space their rows by a factor, also by a small one that
+// is written with three digits. Even spacing is none, however late the clock begins.
+TEST(StepOrigin, OfTimesThatAreSpacedByAFactor) {
+  const auto sentence = [](const std::vector<double>& x) {
+    std::vector<double> y;
+    for (const double t : x) y.push_back(3.0 * std::pow(t, -0.2));
+    const StepOrigin found = step_origin(x, y, AfterStep::relaxes, 0.0);
+    EXPECT_EQ(found.sentence.starts_with("the times are spaced"), found.best.time == 0.0);
+    return found.sentence;
+  };
+  for (const int rows : {20, 200}) {
+    std::vector<double> x;
+    for (int i = 0; i < rows; ++i) {
+      const double t = std::pow(10.0, -2.0 + 4.0 * i / (rows - 1));
+      const double digit = std::pow(10.0, std::floor(std::log10(t)) - 2.0);
+      x.push_back(digit * std::round(t / digit));
+    }
+    EXPECT_TRUE(sentence(x).starts_with("the times are spaced by a factor")) << rows;
+  }
+  for (const double first : {3.0, 30.0, 300.0}) {
+    std::vector<double> x;
+    for (int i = 0; i < 12; ++i) x.push_back(first + 0.1 * first * i);
+    EXPECT_TRUE(sentence(x).starts_with("the record begins at")) << first;
+  }
+}
+
 TEST(StepOrigin, ACreepThatBeganBeforeTheRecordIsRefused) {
   std::vector<double> x, y;
   for (int i = 0; i < 50; ++i) {

@@ -317,6 +317,14 @@ TEST(Measured, ARetractAloneIsKeptWhole) {
   // An approach whose specimen gave way, and a whole press, end at their largest load.
   EXPECT_EQ(read("x_mm,F_N\n0,0\n1,1\n2,4\n3,9\n4,5\n", {.segment = "retract"}).y, Numbers{5});
   EXPECT_EQ(read("x_mm,F_N\n0,0\n1,3\n2,4\n1,2\n0,0\n", {.segment = "retract"}).y, (Numbers{2, 0}));
+  // Its rest is its end, so that its signs are told as well.
+  const DataLayout automatic{.compression = "auto"};
+  EXPECT_TRUE(read(adhesive, automatic).notes.empty());
+  const MeasuredCurve height = read("x_mm,F_N\n-3,9\n-2,5\n-1,2\n0,-3\n1,0\n2,0\n", automatic);
+  EXPECT_EQ(height.y, (Numbers{9, 5, 2, -3, 0, 0}));
+  EXPECT_EQ(height.x.front(), 3e-3);
+  // A load that saturates begins at rest.
+  EXPECT_TRUE(read("x_mm,F_N\n0,0\n1,6\n2,8\n3,9\n4,9.5\n", automatic).notes.empty());
   // Over time every record goes one way.
   EXPECT_EQ(read("t_s,F_N\n0,0\n1,7\n2,9\n3,5\n", {.segment = "retract"}).y, Numbers{5});
 }
