@@ -7,12 +7,15 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "cli/program.h"
+#include "cli/table_text.h"
+#include "cli/talk.h"
 #include "cli/verbs.h"
 #include "fit/contact_model.h"
 #include "fit/uniaxial.h"
 #include "measured/columns.h"
 #include "measured/measured.h"
 #include "measured/table.h"
+#include "record/table.h"
 
 namespace palpate::cli {
 namespace {
@@ -32,41 +35,62 @@ const char* form_of(const RawTable& table) {
   return "a table in text";
 }
 
-// `2  Load (uN)  uN, a force  from 0 to 1.5`
-std::string column_line(const RawTable& table, std::size_t index) {
-  const std::string name =
-      index < table.names.size() ? table.names[index] : std::string("without a name");
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  std::size_t missing = 0;
-  std::size_t words = 0;
-  std::string word;
-  for (const measured::RawRow& row : table.rows) {
-    const std::string& text = row.fields[index].text;
-    const auto number = measured::measured_number(text, table.decimal);
-    if (!number) {
-      ++words;
-      word = text;
-    } else if (!std::isfinite(*number)) {
-      ++missing;
-    } else {
-      low = std::min(low, *number);
-      high = std::max(high, *number);
+// One row per column: what is known of its unit, its numbers, and what are none.
+record::Table column_table(const RawTable& table) {
+  record::Table found;
+  found.columns = {"column", "name", "unit", "quantity", "from", "to", "missing", "words", "word"};
+  for (std::size_t index = 0; index < table.width(); ++index) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    std::size_t missing = 0;
+    std::size_t words = 0;
+    std::vector<record::Cell> row(found.columns.size());
+    for (const measured::RawRow& each : table.rows) {
+      const std::string& text = each.fields[index].text;
+      const auto number = measured::measured_number(text, table.decimal);
+      if (!number) {
+        ++words;
+        row[8] = text;
+      } else if (!std::isfinite(*number)) {
+        ++missing;
+      } else {
+        low = std::min(low, *number);
+        high = std::max(high, *number);
+      }
     }
+    row[0] = static_cast<double>(index + 1);
+    if (index < table.names.size() && !table.names[index].empty()) row[1] = table.names[index];
+    if (const auto unit = measured::file_unit(table, index)) {
+      row[2] = unit->text;
+      row[3] = unit->text.empty() ? "a pure number" : dimension_name(unit->factor.dimension);
+    }
+    if (low <= high) {
+      row[4] = low;
+      row[5] = high;
+    }
+    row[6] = static_cast<double>(missing);
+    row[7] = static_cast<double>(words);
+    found.rows.push_back(std::move(row));
   }
-  std::string line = std::to_string(index + 1) + "  " + (name.empty() ? "(no name)" : name);
-  if (const auto unit = measured::file_unit(table, index)) {
-    line +=
-        ": " + (unit->text.empty() ? "a pure number"
-                                   : unit->text + ", " + dimension_name(unit->factor.dimension));
-  } else {
-    line += ": no unit known";
-  }
-  if (low <= high) line += ", from " + rounded_text(low) + " to " + rounded_text(high);
-  if (missing > 0) line += ", " + std::to_string(missing) + " missing";
-  if (words > 0)
-    line +=
-        ", " + std::to_string(words) + (words == 1 ? " word, `" : " words such as `") + word + "`";
+  return found;
+}
+
+// `2  Load (uN): uN, a force, from 0 to 1.5`
+std::string column_line(const std::vector<record::Cell>& row) {
+  const auto text = [&](std::size_t i) {
+    const auto* word = std::get_if<std::string>(&row[i]);
+    return word == nullptr ? std::string() : *word;
+  };
+  const auto number = [&](std::size_t i) { return rounded_text(std::get<double>(row[i])); };
+  const auto count = [&](std::size_t i) {
+    return std::to_string(static_cast<std::size_t>(std::get<double>(row[i])));
+  };
+  std::string line = count(0) + "  " + (text(1).empty() ? "(no name)" : text(1)) + ": ";
+  line += text(3).empty() ? "no unit known" : (text(2).empty() ? "" : text(2) + ", ") + text(3);
+  if (std::holds_alternative<double>(row[4])) line += ", from " + number(4) + " to " + number(5);
+  if (count(6) != "0") line += ", " + count(6) + " missing";
+  if (count(7) != "0")
+    line += ", " + count(7) + (count(7) == "1" ? " word, `" : " words such as `") + text(8) + "`";
   return line + "\n";
 }
 
@@ -120,7 +144,9 @@ std::string contact_lines(const measured::MeasuredCurve& curve, bool& round) {
     round = fit.r2 >= 0.9 && !fit.gave_way && !straight;
     if (fit.r2 < 0.9)
       return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";
-    if (straight) return line;
+    for (const std::string& note : fit.notes)
+      if (straight && note.find("left out") != std::string::npos) text += note + "\n";
+    if (straight) return line + text;
     if (fit.parameters.size() > 1)
       text += "contact point: " + rounded_text(fit.parameters[1].estimate) +
               " mm, if the tip is round\n";
@@ -172,31 +198,49 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
 
 }  // namespace
 
-int perform(const Data& command, const Arguments&, const Talk&) {
+int perform(const Data& command, const Arguments&, const Talk& talk) {
   const RawTable table =
       measured::raw_table(read_text(command.data), command.data, command.columns);
+  const record::Table columns = column_table(table);
   std::string text = command.data + ": " + form_of(table) + ", " +
                      std::to_string(table.rows.size()) +
                      (table.rows.size() == 1 ? " row" : " rows") + " from line " +
                      std::to_string(table.rows.front().line) + " to " +
                      std::to_string(table.rows.back().line) + "\n";
   for (const std::string& note : table.notes) text += note + "\n";
-  for (std::size_t i = 0; i < table.width(); ++i) text += column_line(table, i);
-  text += segment_lines(table);
+  for (const auto& row : columns.rows) text += column_line(row);
+  record::Table curve_row{.columns = {"file", "form", "rows", "x", "y", "said", "undecided", "next"},
+                          .rows = {}};
+  std::vector<record::Cell> row(curve_row.columns.size());
+  row[0] = command.data;
+  row[1] = form_of(table);
+  row[2] = static_cast<double>(table.rows.size());
+  std::string said = segment_lines(table);
   bool round = true;
   try {
     const measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
-    text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
+    row[3] = curve.x_axis.column;
+    row[4] = curve.y_axis.column;
+    said += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
     for (const std::string& note : curve.notes)
       if (std::find(table.notes.begin(), table.notes.end(), note) == table.notes.end())
-        text += note + "\n";
+        said += note + "\n";
     if (curve.x_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension)
-      text += contact_lines(curve, round);
-    text += "next: " + next_line(command, curve, round) + "\n";
+      said += contact_lines(curve, round);
+    const std::string next = next_line(command, curve, round);
+    row[7] = next;
+    text += said + "next: " + next + "\n";
   } catch (const InputError& error) {
-    text += std::string("to be decided: ") + error.problems().front().message + "\n";
+    const std::string why = error.problems().front().message;
+    row[6] = why;
+    text += said + "to be decided: " + why + "\n";
   }
-  print_text(text);
+  row[5] = said;
+  curve_row.rows.push_back(std::move(row));
+  if (talk.json())
+    print(json_lines(columns) + json_lines(curve_row));
+  else
+    print_text(text);
   return exit_good;
 }
 

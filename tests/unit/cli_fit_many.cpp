@@ -100,6 +100,12 @@ TEST_F(FitMany, DataSaysWhatIsUnderstood) {
         "next: palpate fit c.csv --x \"depth (mm)\" --y \"load (N)\" --model hertz --radius \"... "
         "mm\" --poisson 0.5\n"})
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << "\n" << ended.out;
+  const Ended objects = palpate(folder_.path(), {"data", "c.csv", "--json"});
+  for (const char* part : {R"({"column":1,"name":"depth (mm)","unit":"mm","quantity":"a length",)",
+                           R"({"file":"c.csv","form":"a table in text","rows":61,"x":"depth (mm)",)",
+                           R"("undecided":null,"next":"palpate fit c.csv)"})
+    EXPECT_NE(objects.out.find(part), std::string::npos) << part << "\n" << objects.out;
+  EXPECT_EQ(std::count(objects.out.begin(), objects.out.end(), '\n'), 3);
 }
 
 // A test to rupture is no press by a ball.

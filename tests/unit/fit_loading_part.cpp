@@ -116,6 +116,19 @@ TEST(StepOrigin, OfARampIsItsBeginning) {
 }
 
 // One row on the ramp is enough, and none is a step.
+// A record that begins half-way up a ramp of 2 s: its line leads back to the beginning.
+TEST(StepOrigin, OfARampThatTheRecordMissesInPart) {
+  Rows rows;
+  for (int i = 0; i < 100; ++i) {
+    const double t = 0.1 * i;
+    rows.x.push_back(5.0 + t);
+    rows.y.push_back(t < 1.0 ? 1.0 + t : 1.0 + std::exp(-(t - 1.0) / 3.0));
+  }
+  const Loading found = step_origin(rows.x, rows.y, AfterStep::relaxes, std::nullopt).best;
+  EXPECT_NEAR(found.time, 4.0, 0.02);  // its end is found to a fifth of a row
+  EXPECT_NEAR(found.ramp, 2.0, 0.02);
+}
+
 TEST(StepOrigin, OfAShortRamp) {
   const std::vector<double> x{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0};
   std::vector<double> y{0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 1.8, 1.65, 1.55, 1.5};

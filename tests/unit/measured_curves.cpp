@@ -167,6 +167,39 @@ TEST(Measured, PartsOfATable) {
             "data.csv:1: the column `Set` contains no `3`; its values are 1, 2");
 }
 
+// Two columns of words divide nothing, nor does one that has the same part in every row.
+TEST(Measured, OnlyOneColumnOfWordsDividesACurve) {
+  EXPECT_EQ(read("a,b,d_mm,F_N\nload,approach,1,3\nload,retract,2,4\n").y, (Numbers{3, 4}));
+  EXPECT_EQ(read("a,b,d_mm,F_N\nx,approach,1,3\nx,retract,2,4\n").y, Numbers{3});
+  EXPECT_TRUE(read("b,d_mm,F_N\nextend,1,3\nextend,2,4\n").notes.empty());
+}
+
+TEST(Measured, AStretchBeginsNearOne) {
+  EXPECT_TRUE(read("stretch,P_kPa\n1,0\n1.2,3\n").x_axis.stretch);
+  EXPECT_FALSE(read("stretch,P_kPa\n0,0\n0.2,3\n").x_axis.stretch);
+}
+
+// 0.1 N/s on a press whose free ends last ten rows each; a row without a force is none of the line.
+TEST(Measured, ADriftIsTheLineThroughTheFreeEnds) {
+  std::string text = "t_s,d_mm,F_N\n";
+  for (int i = 0; i < 60; ++i) {
+    const int in = std::clamp(i < 30 ? i - 10 : 49 - i, 0, 19);
+    text += std::to_string(i) + "," + std::to_string(in) + "," +
+            (i == 15 ? "" : std::to_string(in * in + 0.1 * i)) + "\n";
+  }
+  DataLayout layout{.x = "d_mm", .y = "F_N"};
+  layout.drift = "t_s";
+  for (const char* segment : {"", "retract"}) {
+    layout.segment = segment;
+    const MeasuredCurve curve = read(text, layout);
+    const double start = curve.y.back();
+    for (std::size_t i = 0; i < curve.y.size(); ++i)
+      EXPECT_NEAR(curve.y[i] - start, 1e6 * curve.x[i] * curve.x[i], 1e-9) << i;
+  }
+  layout.rows = "1..30";
+  EXPECT_TRUE(refusal(text, layout).starts_with("data.csv: does not begin and end at the same place"));
+}
+
 TEST(Measured, ArchivesSayHowToUnpackThem) {
   EXPECT_EQ(refusal("\x1F\x8B\x08 etc."),
             "data.csv: is compressed by gzip; unpack it with `gunzip -k`");
@@ -323,7 +356,8 @@ TEST(Measured, ARetractAloneIsKeptWhole) {
   const MeasuredCurve height = read("x_mm,F_N\n-3,9\n-2,5\n-1,2\n0,-3\n1,0\n2,0\n", automatic);
   EXPECT_EQ(height.y, (Numbers{9, 5, 2, -3, 0, 0}));
   EXPECT_EQ(height.x.front(), 3e-3);
-  // A load that saturates begins at rest.
+  // A load that saturates begins at rest, also where it gives way.
+  EXPECT_EQ(read("x_mm,F_N\n0,0\n1,6\n2,8\n3,9\n4,7\n", {.segment = "retract"}).y, Numbers{7});
   EXPECT_TRUE(read("x_mm,F_N\n0,0\n1,6\n2,8\n3,9\n4,9.5\n", automatic).notes.empty());
   // Over time every record goes one way.
   EXPECT_EQ(read("t_s,F_N\n0,0\n1,7\n2,9\n3,5\n", {.segment = "retract"}).y, Numbers{5});
