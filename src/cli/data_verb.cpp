@@ -121,7 +121,8 @@ std::string quoted(const std::string& word) {
   return plain ? word : "\"" + word + "\"";
 }
 
-// Whether a straight line, behind a toe if there is one, leaves less scatter than a round tip's law.
+// Whether a straight line, behind a toe if there is one, leaves less scatter than a round tip's
+// law.
 bool is_straight(const measured::MeasuredCurve& curve, double scatter) {
   try {
     return unit::kPa.to_si(fit::fit_uniaxial(curve.x, curve.y, {.toe = true}).rmse) < scatter;
@@ -189,8 +190,8 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
   if (curve.y_axis.mass) line += " --y-unit " + curve.y_axis.unit + "f";
   if (x == unit::mm.dimension && curve.y_axis.mass)
     return line + " --model hertz --radius \"... mm\" --poisson 0.5";
-  const bool strain = curve.x_axis.has_unit ||
-                      lower_case(curve.x_axis.column).find("strain") != std::string::npos;
+  const bool strain =
+      curve.x_axis.has_unit || lower_case(curve.x_axis.column).find("strain") != std::string::npos;
   if (x == Dimension{} && y == unit::kPa.dimension && strain)
     return line + " --model modulus --from \"0 %\" --to \"10 %\"";
   return line + " --model power";
@@ -209,8 +210,8 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
                      std::to_string(table.rows.back().line) + "\n";
   for (const std::string& note : table.notes) text += note + "\n";
   for (const auto& row : columns.rows) text += column_line(row);
-  record::Table curve_row{.columns = {"file", "form", "rows", "x", "y", "said", "undecided", "next"},
-                          .rows = {}};
+  record::Table curve_row{
+      .columns = {"file", "form", "rows", "x", "y", "said", "undecided", "next"}, .rows = {}};
   std::vector<record::Cell> row(curve_row.columns.size());
   row[0] = command.data;
   row[1] = form_of(table);

@@ -40,7 +40,9 @@ using CurveAt = std::function<bool(std::span<const double> parameters, std::span
                                std::span<const double> start, int max_iterations);
 
 // The start of a parameter of order one, which is 0 where the guess is too small to divide by.
-[[nodiscard]] inline double start_near(double guess) { return std::abs(guess) < 1e-3 ? 0.0 : guess; }
+[[nodiscard]] inline double start_near(double guess) {
+  return std::abs(guess) < 1e-3 ? 0.0 : guess;
+}
 
 // The same for the curve of `model` over x, with the derivatives of slopes().
 [[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,

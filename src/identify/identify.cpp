@@ -528,8 +528,7 @@ class Search {
         most[i] = std::max(most[i], moved.u[i] - best_.u[i]);
       }
     }
-    for (std::size_t i = 0; i < least.size(); ++i)
-      move_ends(found_.unknowns[i], least[i], most[i]);
+    for (std::size_t i = 0; i < least.size(); ++i) move_ends(found_.unknowns[i], least[i], most[i]);
   }
 
   // Moves the ends of an interval by steps in u.

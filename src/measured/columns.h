@@ -19,10 +19,10 @@ struct Column {
 
 enum class Role { x, y };
 
-// The layout's x or y: the column of that name (with or without its unit) or number (from 1), in its
-// unit, which takes precedence over the file's. Without a name the format, the position or the units
-// determine the column. Throws InputError for an unknown column (with the nearest name), a name that
-// occurs twice, an unknown unit, and if no column can be determined.
+// The layout's x or y: the column of that name (with or without its unit) or number (from 1), in
+// its unit, which takes precedence over the file's. Without a name the format, the position or the
+// units determine the column. Throws InputError for an unknown column (with the nearest name), a
+// name that occurs twice, an unknown unit, and if no column can be determined.
 [[nodiscard]] Column find_column(const RawTable& table, const DataLayout& layout, Role role);
 
 // Columns with the name `word`; if there are none, ignoring case; then ignoring case and unit.

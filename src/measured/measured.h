@@ -10,13 +10,13 @@ namespace palpate::measured {
 
 // The user's description of a file; empty members are determined from the file itself.
 struct DataLayout {
-  std::string x = {};            // a column's name, with or without its unit, or its number from 1
-  std::string y = {};            // likewise
-  std::string x_unit = {};       // such as `mm`; takes precedence over the file
-  std::string y_unit = {};       // likewise
-  int skip = -1;                 // lines to skip; the table begins there or below
-  std::string separator = {};    // `,` `;` `tab` `blank`
-  std::string decimal = {};      // `.` or `,`
+  std::string x = {};          // a column's name, with or without its unit, or its number from 1
+  std::string y = {};          // likewise
+  std::string x_unit = {};     // such as `mm`; takes precedence over the file
+  std::string y_unit = {};     // likewise
+  int skip = -1;               // lines to skip; the table begins there or below
+  std::string separator = {};  // `,` `;` `tab` `blank`
+  std::string decimal = {};    // `.` or `,`
   enum class Curve { press, relaxation, creep };
   Curve curve = Curve::press;    // what x and y are where no column is chosen
   std::string compression = {};  // sign of the load: `positive` or empty, `negative`, `auto`

@@ -128,9 +128,9 @@ TEST(Adhesive, DmtOfAStiffContact) {
   EXPECT_NEAR(of(fit, "w"), 20.0, 1e-6 * 20.0);
 }
 
-// JKR over even depths, by bisection of the contact radius between the opening at a fixed depth and a
-// radius that is too large; beyond the opening the tip is free. The noise is white, or 0.9 of that of
-// the row before and some more.
+// JKR over even depths, by bisection of the contact radius between the opening at a fixed depth and
+// a radius that is too large; beyond the opening the tip is free. The noise is white, or 0.9 of
+// that of the row before and some more.
 TEST(Adhesive, IntervalsHold) {
   const auto depth_of = [](double a) {
     return a * a / bead - std::sqrt(2.0 * pi * a * sticky / reduced);

@@ -44,8 +44,8 @@ TEST(StepOrigin, OfARelaxation) {
   EXPECT_NEAR(at(0.0, 2.0).best.first, 2.0, 1e-9);
 }
 
-// Rheometers count the time from the step and space their rows by a factor, also by a small one that
-// is written with three digits. Even spacing is none, however late the clock begins.
+// Rheometers count the time from the step and space their rows by a factor, also by a small one
+// that is written with three digits. Even spacing is none, however late the clock begins.
 TEST(StepOrigin, OfTimesThatAreSpacedByAFactor) {
   const auto sentence = [](const std::vector<double>& x) {
     std::vector<double> y;

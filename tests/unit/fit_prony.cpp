@@ -259,7 +259,8 @@ TEST(Prony, ALiquidFlowsDuringTheRamp) {
   ASSERT_EQ(fit.parameters.size(), 4U);
   const std::vector<double> truth{1.0, 0.3, 2.0, tau};
   for (std::size_t i = 0; i < truth.size(); ++i)
-    EXPECT_NEAR(fit.parameters[i].estimate, truth[i], 1e-6) << fit.parameters[i].name;  // exact data
+    EXPECT_NEAR(fit.parameters[i].estimate, truth[i], 1e-6)
+        << fit.parameters[i].name;  // exact data
 }
 
 }  // namespace

@@ -196,8 +196,10 @@ TEST(Measured, ADriftIsTheLineThroughTheFreeEnds) {
     for (std::size_t i = 0; i < curve.y.size(); ++i)
       EXPECT_NEAR(curve.y[i] - start, 1e6 * curve.x[i] * curve.x[i], 1e-9) << i;
   }
+  layout.segment = "";
   layout.rows = "1..30";
-  EXPECT_TRUE(refusal(text, layout).starts_with("data.csv: does not begin and end at the same place"));
+  EXPECT_TRUE(
+      refusal(text, layout).starts_with("data.csv: does not begin and end at the same place"));
 }
 
 TEST(Measured, ArchivesSayHowToUnpackThem) {
@@ -345,8 +347,8 @@ TEST(Measured, ARetractAloneIsKeptWhole) {
   EXPECT_EQ(read("x_mm,F_N\n-3,-9\n-2,-5\n-1,-2\n0,3\n1,0\n2,0\n", {.segment = "retract"}).y,
             (Numbers{-9, -5, -2, 3, 0, 0}));
   // Without adhesion the largest change is that of any free row, also of the last.
-  EXPECT_EQ(read("x_mm,F_N\n3,9\n2,5\n1,2\n0,0\n-1,0.1\n-2,-0.1\n", {.segment = "retract"}).y.size(),
-            6U);
+  EXPECT_EQ(
+      read("x_mm,F_N\n3,9\n2,5\n1,2\n0,0\n-1,0.1\n-2,-0.1\n", {.segment = "retract"}).y.size(), 6U);
   // An approach whose specimen gave way, and a whole press, end at their largest load.
   EXPECT_EQ(read("x_mm,F_N\n0,0\n1,1\n2,4\n3,9\n4,5\n", {.segment = "retract"}).y, Numbers{5});
   EXPECT_EQ(read("x_mm,F_N\n0,0\n1,3\n2,4\n1,2\n0,0\n", {.segment = "retract"}).y, (Numbers{2, 0}));
