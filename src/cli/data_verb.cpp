@@ -159,7 +159,7 @@ std::string contact_lines(const measured::MeasuredCurve& curve, bool& round) {
     return text;
   } catch (const InputError& error) {
     const auto [least, most] = std::minmax_element(curve.y.begin(), curve.y.end());
-    round = !is_straight(curve, 0.05 * (*most - *least));
+    round = !is_straight(curve, 0.05 * (*most - *least));  // a line with R^2 above 0.97
     return round ? "no contact point: " + error.problems().front().message + "\n" : line;
   }
 }

@@ -10,20 +10,21 @@ namespace palpate::measured {
 
 // The user's description of a file; empty members are determined from the file itself.
 struct DataLayout {
-  std::string x = {};          // a column's name, with or without its unit, or its number from 1
-  std::string y = {};          // likewise
-  std::string x_unit = {};     // such as `mm`; takes precedence over the file
-  std::string y_unit = {};     // likewise
-  int skip = -1;               // lines to skip; the table begins there or below
-  std::string separator = {};  // `,` `;` `tab` `blank`
-  std::string decimal = {};    // `.` or `,`
-  enum class Curve { press, relaxation, creep };
-  Curve curve = Curve::press;    // what x and y are where no column is chosen
+  std::string x = {};            // a column's name, with or without its unit, or its number from 1
+  std::string y = {};            // likewise
+  std::string x_unit = {};       // such as `mm`; takes precedence over the file
+  std::string y_unit = {};       // likewise
+  int skip = -1;                 // lines to skip; the table begins there or below
+  std::string separator = {};    // `,` `;` `tab` `blank`
+  std::string decimal = {};      // `.` or `,`
   std::string compression = {};  // sign of the load: `positive` or empty, `negative`, `auto`
   std::string segment = {};  // `approach`, `retract`, or a value of the column `segment` or `step`
   std::string usual = "approach";  // the segment of a force over a length where none is chosen
   std::vector<std::string> beside = {};  // further columns to read from the same rows
   std::string case_name = {};  // only rows with this value in the column `case` (FEBio: `item`)
+
+  enum class Curve { press, relaxation, creep };
+  Curve curve = Curve::press;  // what x and y are where no column is chosen
 
   enum class Blanks { leave_out, keep };
   Blanks blanks = Blanks::leave_out;    // `keep` keeps rows without a number, as NaN
