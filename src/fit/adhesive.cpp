@@ -94,8 +94,7 @@ class AdhesiveFit {
     const auto [low, high] = std::minmax_element(curve_.depth.begin(), curve_.depth.end());
     const double range = *high - *low;
     const std::array guess = guessed();
-    std::vector<double> start{1.0, 1.0, start_near(guess[2] / range),
-                              none ? 0.0 : start_near(level_), 0.0};
+    std::vector<double> start{1.0, 1.0, guess[2] / range, none ? 0.0 : level_, 0.0};
     start.resize(count);
     const double lowest = *low;
     const CurveAt at = [&](std::span<const double> p, std::span<double> values,

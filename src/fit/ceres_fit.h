@@ -1,7 +1,6 @@
 // Least-squares problems solved by Ceres; no type of Ceres appears in this header.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
@@ -34,15 +33,9 @@ using CurveAt = std::function<bool(std::span<const double> parameters, std::span
                                    std::span<double> slopes)>;
 
 // Minimises sum (value_i - y_i)^2 from `start` by Levenberg-Marquardt. The stopping tolerances are
-// absolute: scale y to order one. Each parameter is divided by its start, unless that is 0. Writes
-// nothing to the terminal and no log file.
+// absolute: scale y to order one. Writes nothing to the terminal and no log file.
 [[nodiscard]] Minimum minimise(std::span<const double> y, const CurveAt& curve,
                                std::span<const double> start, int max_iterations);
-
-// The start of a parameter of order one, which is 0 where the guess is too small to divide by.
-[[nodiscard]] inline double start_near(double guess) {
-  return std::abs(guess) < 1e-3 ? 0.0 : guess;
-}
 
 // The same for the curve of `model` over x, with the derivatives of slopes().
 [[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,

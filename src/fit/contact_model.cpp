@@ -314,8 +314,10 @@ class ContactFit {
       }
       return true;
     };
-    std::vector<double> unknowns{1.0, start_near(guess.contact / range), start_near(guess.offset),
-                                 start_near(guess.tilt)};
+    // Numbers near 0 begin at 0, so that the search does not scale by them.
+    const auto start = [](double value) { return std::abs(value) < 1e-3 ? 0.0 : value; };
+    std::vector<double> unknowns{1.0, guess.contact / range, start(guess.offset),
+                                 start(guess.tilt)};
     const auto fitted = [&](auto& all) {
       if (lead == 1) all.erase(all.begin() + 1);
       all.resize(count);
@@ -361,8 +363,7 @@ class ContactFit {
     static constexpr std::array<const char*, 3> short_words{"none", "offset", "tilt"};
     for (const auto& [other, factor] : choice.others) {
       const double change = factor / choice.guess.factor - 1.0;
-      if (std::abs(change) > 0.02 &&
-          (other == Baseline::offset || choice.baseline != Baseline::tilt))
+      if (std::abs(change) > 0.02)
         fit_.notes.push_back("`--baseline " + std::string(short_words[as_index(other)]) +
                              "` would change E by " + (change > 0.0 ? "+" : "-") +
                              percent_text(std::abs(change)));

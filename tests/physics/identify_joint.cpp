@@ -116,24 +116,6 @@ TEST(IdentifyJoint, EachTestWeighsByItsOwnNoise) {
   EXPECT_NEAR(*joint.unknowns[0].std_error / *alone.unknowns[0].std_error, 1.0, 0.2);
 }
 
-// Modulus and thickness of one press correlate by more than 0.95. White noise tells them apart; a
-// slow wave of 5 % leaves too few independent points to.
-TEST(IdentifyJoint, FewIndependentPointsDoNotTellApartWhatCorrelates) {
-  Joint joint{{layer_press("20 mm")},
-              {"tissue.young_modulus=5..100 kPa", "tissue.shape.size.3=3..9 mm"}};
-  const identify::IdentifyOptions options{.searches = 1, .model_error = false, .profiles = false};
-  const auto white = joint.found(1, options);
-  EXPECT_FALSE(white.unknowns[0].tied || white.unknowns[1].tied);
-  EXPECT_GT(white.correlation[1], 0.95);
-  identify::Measurement& wavy = joint.clean.front();
-  const double most = wavy.y.back();
-  for (std::size_t i = 0; i < wavy.x.size(); ++i)
-    wavy.y[i] += 0.05 * most * std::sin(12.0 * wavy.x[i] / wavy.x.back());
-  const auto slow = joint.found(1, options);
-  EXPECT_LT(slow.effective_size, 10.0);
-  EXPECT_TRUE(slow.unknowns[0].tied && slow.unknowns[1].tied);
-}
-
 // A model's error widens every interval, also where the force falls as the unknown grows.
 TEST(IdentifyJoint, TheModelsErrorWidensTheIntervalOfAThickness) {
   Joint joint{{layer_press("20 mm")}, {"tissue.shape.size.3=3..9 mm"}};

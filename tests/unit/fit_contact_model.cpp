@@ -63,7 +63,7 @@ TEST(ContactModel, HertzExactly) {
   EXPECT_NEAR(fit.r2, 1.0, 1e-12);  // rounding
 }
 
-// A contact point and an offset that are 0 but for rounding are no scale of the search.
+// A contact point and an offset that are 0 but for rounding are determined all the same.
 TEST(ContactModel, ExactlyFromZero) {
   Curve curve = hertz_curve();
   for (double& each : curve.depth) each -= contact_at;
