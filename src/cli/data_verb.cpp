@@ -9,6 +9,7 @@
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/contact_model.h"
+#include "fit/uniaxial.h"
 #include "measured/columns.h"
 #include "measured/measured.h"
 #include "measured/table.h"
@@ -106,20 +107,38 @@ std::string quoted(const std::string& word) {
   return plain ? word : "\"" + word + "\"";
 }
 
+// Whether a straight line, behind a toe if there is one, leaves less scatter than a round tip's
+// law.
+bool is_straight(const measured::MeasuredCurve& curve, double scatter) {
+  try {
+    return unit::kPa.to_si(fit::fit_uniaxial(curve.x, curve.y, {.toe = true}).rmse) < scatter;
+  } catch (const InputError&) {  // several loadings, or no rise
+    return false;
+  }
+}
+
 // Contact point, baseline and noise of a force over a length. Both follow from the shape of a
 // paraboloid's curve, whatever its radius; `round` says whether that describes the
 // whole curve.
 std::string contact_lines(const measured::MeasuredCurve& curve, bool& round, const Talk& talk) {
+  const char* line =
+      "a straight line describes the curve better than the law of a round tip, as of a specimen "
+      "between platens\n";
   try {
     const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
+    const bool straight = is_straight(curve, fit.rmse);
     std::string text;
-    round = fit.r2 >= 0.9 && !fit.gave_way;
-    Details details{{"round_tip", round}, {"r2", fit.r2}, {"scatter_N", fit.rmse}};
+    round = fit.r2 >= 0.9 && !fit.gave_way && !straight;
+    Details details{
+        {"round_tip", round}, {"straight", straight}, {"r2", fit.r2}, {"scatter_N", fit.rmse}};
     if (fit.parameters.size() > 1) details.emplace_back("point_mm", fit.parameters[1].estimate);
     if (fit.parameters.size() > 2) details.emplace_back("offset_N", fit.parameters[2].estimate);
     talk.event("contact", details);
     if (fit.r2 < 0.9)
       return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";
+    for (const std::string& note : fit.notes)
+      if (straight && note.find("left out") != std::string::npos) text += note + "\n";
+    if (straight) return line + text;
     if (fit.parameters.size() > 1)
       text += "contact point: " + rounded_text(fit.parameters[1].estimate) +
               " mm, if the tip is round\n";
@@ -131,8 +150,10 @@ std::string contact_lines(const measured::MeasuredCurve& curve, bool& round, con
     return text;
   } catch (const InputError& error) {
     const std::string& why = error.problems().front().message;
-    talk.event("contact", {{"round_tip", false}, {"why", why}});
-    return "no contact point: " + why + "\n";
+    const auto [least, most] = std::minmax_element(curve.y.begin(), curve.y.end());
+    round = !is_straight(curve, 0.05 * (*most - *least));  // a line with R^2 above 0.97
+    talk.event("contact", {{"round_tip", round}, {"straight", !round}, {"why", why}});
+    return round ? "no contact point: " + why + "\n" : line;
   }
 }
 
@@ -159,7 +180,12 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
   if (x == unit::s.dimension)
     return line +
            (y == Dimension{} ? " --model prony_creep --terms 1" : " --model prony --terms 1");
-  if (x == Dimension{} && y == unit::kPa.dimension && curve.x_axis.has_unit)
+  if (curve.y_axis.mass) line += " --y-unit " + curve.y_axis.unit + "f";
+  if (x == unit::mm.dimension && curve.y_axis.mass)
+    return line + " --model hertz --radius \"... mm\" --poisson 0.5";
+  const bool strain =
+      curve.x_axis.has_unit || lower_case(curve.x_axis.column).find("strain") != std::string::npos;
+  if (x == Dimension{} && y == unit::kPa.dimension && strain)
     return line + " --model modulus --from \"0 %\" --to \"10 %\"";
   return line + " --model power";
 }

@@ -645,6 +645,12 @@ FittedCurve fit_curve(const Fit& command, const std::string& path) {
   DataOptions columns = command.columns;
   columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it leaves out
   if (is_one_of(command.model, {"jkr", "dmt", "adhesive"})) columns.usual = "retract";
+  if (is_one_of(command.model,
+                {"prony", "standard_linear_solid", "spring_pot", "fractional_zener"}))
+    columns.curve = DataOptions::Curve::relaxation;
+  if (is_one_of(command.model,
+                {"prony_creep", "kelvin_voigt", "kelvin_voigt_recovery", "spring_pot_creep"}))
+    columns.curve = DataOptions::Curve::creep;
   for (const std::string* each : {&command.time, &command.history})
     if (!each->empty()) columns.beside.push_back(*each);
   const measured::MeasuredCurve curve = measured::read_measured(path, columns);

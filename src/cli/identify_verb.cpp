@@ -61,7 +61,7 @@ std::optional<fit::StepOrigin> step_of(const scenario::Scenario& scenario,
 // otherwise a clock that begins later either leaves the beginning out or counts from elsewhere, and
 // only the user knows.
 std::string begin_with_programme(const Identify& command, const scenario::Scenario& scenario,
-                                 measured::MeasuredCurve& curve) {
+                                 measured::MeasuredCurve& curve, std::vector<double>& starts) {
   const bool time = curve.x_axis.dimension == Dimension{0, 0, 1};
   const std::size_t last = curve.x.size() - 1;
   const double per_unit =
@@ -80,6 +80,7 @@ std::string begin_with_programme(const Identify& command, const scenario::Scenar
   const bool late = first > (curve.x[1] - curve.x[0]) * (1.0 + 1e-9);
   if (const auto step = step_of(scenario, curve, late)) {
     shift(step->best.time);
+    for (const fit::Loading& other : step->others) starts.push_back(other.time - step->best.time);
     return step->sentence + (step->sentence.empty() || per_unit == 1.0 ? "" : ", in s");
   }
   if (!late) return {};
@@ -101,14 +102,17 @@ identify::Measurement read_measurement(const Identify& command, const std::strin
     talk.say(where + "x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
   if (curve.x_axis.stretch)
     for (double& each : curve.x) each -= 1.0;
-  if (const std::string found = begin_with_programme(command, scenario, curve); !found.empty())
+  std::vector<double> starts;
+  if (const std::string found = begin_with_programme(command, scenario, curve, starts);
+      !found.empty())
     talk.say(where + found);
   return {.x = std::move(curve.x),
           .y = std::move(curve.y),
           .x_name = curve.x_axis.column,
           .y_name = curve.y_axis.column,
           .x_dimension = curve.x_axis.dimension,
-          .y_dimension = curve.y_axis.dimension};
+          .y_dimension = curve.y_axis.dimension,
+          .starts = std::move(starts)};
 }
 
 scenario::Family read_scenario(const Identify& command, const std::string& path, const Talk& talk) {

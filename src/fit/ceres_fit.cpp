@@ -87,16 +87,16 @@ void model_curve(std::span<const double> x, Model model, std::span<const double>
   }
 }
 
-// (J^T J)^-1 by the singular values of J; empty if it lacks full rank.
-std::vector<double> inverse_normal(std::span<const double> jacobian,
-                                   std::span<const double> scale) {
+// (J^T J)^-1 by the singular values of J with columns of length 1; empty if it lacks full rank.
+std::vector<double> inverse_normal(std::span<const double> jacobian, std::size_t parameters) {
   constexpr double least = 1e-7;  // of the largest singular value
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto count = static_cast<Eigen::Index>(scale.size());
+  const auto count = static_cast<Eigen::Index>(parameters);
   const Eigen::Index points = static_cast<Eigen::Index>(jacobian.size()) / count;
   if (points < count) return {};
-  const Eigen::Map<const Eigen::RowVectorXd> unit(scale.data(), count);
   const Eigen::Map<const Rows> slopes(jacobian.data(), points, count);
+  const Eigen::RowVectorXd unit = slopes.colwise().norm().cwiseInverse();
+  if (!unit.allFinite()) return {};
   const Eigen::HouseholderQR<Eigen::MatrixXd> split(slopes * unit.asDiagonal());
   const Eigen::MatrixXd upper = split.matrixQR().topRows(count).triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Eigen::MatrixXd> parts(upper, Eigen::ComputeFullV);
@@ -153,7 +153,7 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
   (void)curve(minimum.parameters, minimum.residuals, minimum.jacobian);
   for (std::size_t i = 0; i < y.size(); ++i) minimum.residuals[i] -= y[i];
   if (minimum.status == Minimum::Status::found)
-    minimum.inverse_normal = inverse_normal(minimum.jacobian, scale);
+    minimum.inverse_normal = inverse_normal(minimum.jacobian, scale.size());
   return minimum;
 }
 

@@ -363,8 +363,7 @@ class ContactFit {
     static constexpr std::array<const char*, 3> short_words{"none", "offset", "tilt"};
     for (const auto& [other, factor] : choice.others) {
       const double change = factor / choice.guess.factor - 1.0;
-      if (std::abs(change) > 0.02 &&
-          (other == Baseline::offset || choice.baseline != Baseline::tilt))
+      if (std::abs(change) > 0.02)
         fit_.notes.push_back("`--baseline " + std::string(short_words[as_index(other)]) +
                              "` would change E by " + (change > 0.0 ? "+" : "-") +
                              percent_text(std::abs(change)));

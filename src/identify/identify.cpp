@@ -71,7 +71,7 @@ class Search {
  public:
   Search(const std::vector<Pair>& pairs, const std::vector<Unknown>& unknowns,
          const IdentifyOptions& options)
-      : unknowns_(unknowns), options_(options) {
+      : pairs_(pairs), unknowns_(unknowns), options_(options) {
     parts_.reserve(pairs.size());  // curves keep references to the unknowns of their parts
     for (const Pair& pair : pairs) add(pair);
   }
@@ -84,6 +84,7 @@ class Search {
     if (options_.profiles) {
       profiles();
       sensitivity();
+      widen_by_start(*pairs_.front().measured);
     }
     conclude();
     return std::move(found_);
@@ -510,6 +511,36 @@ class Search {
     }
   }
 
+  // The best fit from all starts of a record whose step lies between two rows: each end of an
+  // interval moves as far as the best fit does in its direction.
+  void widen_by_start(const Measurement& measured) {
+    if (joint()) return;
+    std::vector<double> least(unknowns_.size(), 0.0);
+    std::vector<double> most = least;
+    for (const double start : measured.starts) {
+      shift_points(start);
+      const BoxMinimum moved = minimise_in_box(problem_, best_.u, {}, Want::squares);
+      shift_points(0.0);
+      StopScope::end_if_stopped();
+      found_.evaluations += moved.evaluations;
+      for (std::size_t i = 0; i < least.size() && moved.found; ++i) {
+        least[i] = std::min(least[i], moved.u[i] - best_.u[i]);
+        most[i] = std::max(most[i], moved.u[i] - best_.u[i]);
+      }
+    }
+    for (std::size_t i = 0; i < least.size(); ++i) move_ends(found_.unknowns[i], least[i], most[i]);
+  }
+
+  // Moves the ends of an interval by steps in u.
+  static void move_ends(Identified& one, double by_low, double by_high) {
+    if (one.tied || one.at_bound) return;
+    const auto move = [&](std::optional<double>& end, double by) {
+      if (end) end = one.unknown.value(one.unknown.inverse(*end) + by);
+    };
+    for (auto* low : {&one.ci95_low, &one.profile_low}) move(*low, by_low);
+    for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, by_high);
+  }
+
   void shift_points(double shift) {
     Part& part = parts_.front();
     part.curve->set_shift(shift);
@@ -616,15 +647,9 @@ class Search {
           one.product ? one.ci95_high * std::exp(combined[k]) : one.ci95_high + combined[k];
     }
     for (std::size_t i = 0; i < n; ++i) {
-      Identified& one = found_.unknowns[i];
-      if (one.tied || one.at_bound || one.unknown.what == Unknown::What::force_offset ||
-          one.unknown.what == Unknown::What::force_tilt)
-        continue;
-      const auto move = [&](std::optional<double>& end, double sign) {
-        if (end) end = unknowns_[i].value(unknowns_[i].inverse(*end) + sign * moved[i]);
-      };
-      for (auto* low : {&one.ci95_low, &one.profile_low}) move(*low, -1.0);
-      for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, 1.0);
+      const Unknown::What what = unknowns_[i].what;
+      if (what != Unknown::What::force_offset && what != Unknown::What::force_tilt)
+        move_ends(found_.unknowns[i], -moved[i], moved[i]);
     }
   }
 
@@ -657,6 +682,7 @@ class Search {
     }
   }
 
+  const std::vector<Pair>& pairs_;
   const std::vector<Unknown>& unknowns_;
   const IdentifyOptions& options_;
   std::vector<Profile::Point> valley_;  // of the tied unknowns, over their ranges

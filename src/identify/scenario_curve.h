@@ -17,6 +17,7 @@ struct Measurement {
   std::vector<double> x, y;    // SI
   std::string x_name, y_name;  // of the columns, as given by the user
   Dimension x_dimension = {}, y_dimension = {};
+  std::vector<double> starts = {};  // of x, other than 0, that the rows leave open: a step's
 };
 
 // The curve of a scenario that was measured.

@@ -139,16 +139,20 @@ bool is_abscissa(const RawTable& table, std::size_t index) {
   const auto unit = file_unit(table, index);
   if (!unit) return false;
   const Dimension& dimension = unit->factor.dimension;
-  return dimension == length || dimension == Dimension{0, 0, 1};
+  return dimension == length || dimension == time;
 }
 
 // The column for a role without a given name: the format's usual one, the first (x) or second (y)
-// of two columns, or the only length (x) or force (y).
-std::size_t only_column(const RawTable& table, Role role) {
+// of two columns, or the only length (x) or force (y). Over time x is the only time, and y the only
+// force or, without one, stress; in creep the only length or, without one, strain.
+std::size_t only_column(const RawTable& table, const DataLayout& layout, Role role) {
+  const bool timed = layout.curve != DataLayout::Curve::press;
+  const bool creeps = layout.curve == DataLayout::Curve::creep;
   const std::vector<std::string> names = names_of(table);
-  for (const std::string& usual : usual_names(table, role))
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == usual) return i;
+  if (!timed)
+    for (const std::string& usual : usual_names(table, role))
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] == usual) return i;
   std::vector<std::size_t> numeric;  // columns of words are no curve
   for (std::size_t i = 0; i < names.size(); ++i)
     if (measured_number(table.rows.front().fields[i].text, table.decimal) ||
@@ -163,11 +167,19 @@ std::size_t only_column(const RawTable& table, Role role) {
     const bool turned = is_abscissa(table, numeric[1]) && !is_abscissa(table, numeric[0]);
     return numeric[(role == Role::x) == turned ? 1 : 0];
   }
-  std::vector<std::size_t> fitting;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (const auto unit = file_unit(table, i);
-        unit && unit->factor.dimension == (role == Role::x ? length : force))
-      fitting.push_back(i);
+  const auto of = [&](const Dimension& dimension) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (const auto unit = file_unit(table, i); unit && unit->factor.dimension == dimension)
+        found.push_back(i);
+    return found;
+  };
+  std::vector<std::size_t> fitting =
+      of(role == Role::x ? (timed ? time : length) : (creeps ? length : force));
+  if (fitting.empty() && role == Role::y && timed && !creeps) fitting = of(stress);
+  if (fitting.empty() && role == Role::y && creeps)
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (lower_case(names[i]).find("strain") != std::string::npos) fitting.push_back(i);
   if (fitting.size() == 1) return fitting.front();
   std::vector<std::size_t> usual;
   for (const std::size_t i : fitting)
@@ -211,11 +223,12 @@ std::size_t named_index(const RawTable& table, const std::string& word, const st
                              : "; columns: " + joined(names_of(table), ", ")));
 }
 
-Column find_column(const RawTable& table, const std::string& wanted, const std::string& unit,
-                   Role role) {
+Column find_column(const RawTable& table, const DataLayout& layout, Role role) {
+  const bool x = role == Role::x;
+  const std::string& wanted = x ? layout.x : layout.y;
   const std::size_t index =
-      wanted.empty() ? only_column(table, role) : named_index(table, wanted, option(role));
-  return column_at(table, index, unit, role);
+      wanted.empty() ? only_column(table, layout, role) : named_index(table, wanted, option(role));
+  return column_at(table, index, x ? layout.x_unit : layout.y_unit, role);
 }
 
 }  // namespace palpate::measured

@@ -19,12 +19,11 @@ struct Column {
 
 enum class Role { x, y };
 
-// The column with the name (with or without its unit) or the number (from 1) `wanted`. If `wanted`
-// is empty, the format, the position or the units determine the column for the role. `unit` takes
-// precedence over the file's unit. Throws InputError for an unknown column (with the nearest name),
-// a name that occurs twice, an unknown unit, and if no column can be determined.
-[[nodiscard]] Column find_column(const RawTable& table, const std::string& wanted,
-                                 const std::string& unit, Role role);
+// The layout's x or y: the column of that name (with or without its unit) or number (from 1), in
+// its unit, which takes precedence over the file's. Without a name the format, the position or the
+// units determine the column. Throws InputError for an unknown column (with the nearest name), a
+// name that occurs twice, an unknown unit, and if no column can be determined.
+[[nodiscard]] Column find_column(const RawTable& table, const DataLayout& layout, Role role);
 
 // Columns with the name `word`; if there are none, ignoring case; then ignoring case and unit.
 [[nodiscard]] std::vector<std::size_t> columns_named(const RawTable& table,

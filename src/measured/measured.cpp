@@ -61,8 +61,8 @@ std::string weight_note(const RawTable& table, const Column& column) {
 }
 
 void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout) {
-  const Column x = find_column(table, layout.x, layout.x_unit, Role::x);
-  const Column y = find_column(table, layout.y, layout.y_unit, Role::y);
+  const Column x = find_column(table, layout, Role::x);
+  const Column y = find_column(table, layout, Role::y);
   curve.x_axis = axis_of(x);
   curve.y_axis = axis_of(y);
   curve.guessed = (layout.x.empty() || layout.y.empty()) && table.width() > 2;
@@ -71,7 +71,7 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
       curve.notes.push_back(weight);
   std::vector<Column> beside;
   for (const std::string& name : layout.beside) {
-    beside.push_back(find_column(table, name, "", Role::y));
+    beside.push_back(find_column(table, {.y = name}, Role::y));
     curve.beside.push_back({axis_of(beside.back()), {}});
   }
   const Rows rows = chosen_rows(table, layout, {x, y});
@@ -146,8 +146,8 @@ void take_off_deflection(MeasuredCurve& curve, const DataLayout& layout) {
 // The line over time through the free ends of the whole record, before and after contact.
 void take_off_drift(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout) {
   if (layout.drift.empty()) return;
-  const Column x = find_column(table, layout.x, layout.x_unit, Role::x);
-  const Column y = find_column(table, layout.y, layout.y_unit, Role::y);
+  const Column x = find_column(table, layout, Role::x);
+  const Column y = find_column(table, layout, Role::y);
   Column time;
   time.index = named_index(table, layout.drift, "--drift");
   time.name = layout.drift;

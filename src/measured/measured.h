@@ -23,6 +23,9 @@ struct DataLayout {
   std::vector<std::string> beside = {};  // further columns to read from the same rows
   std::string case_name = {};  // only rows with this value in the column `case` (FEBio: `item`)
 
+  enum class Curve { press, relaxation, creep };
+  Curve curve = Curve::press;  // what x and y are where no column is chosen
+
   enum class Blanks { leave_out, keep };
   Blanks blanks = Blanks::leave_out;    // `keep` keeps rows without a number, as NaN
   std::vector<std::string> where = {};  // COLUMN=VALUE: only rows with this value

@@ -6,6 +6,7 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "measured/columns.h"
+#include "measured/sign.h"
 
 namespace palpate::measured {
 namespace {
@@ -77,13 +78,35 @@ void keep_only(const RawTable& table, Rows& rows, std::size_t column, const std:
       "the column `" + table.names[column] + "` contains no `" + wanted + "`" + remedy);
 }
 
+// Whether all rows are those of a retract.
+bool is_retract(const RawTable& table, const Axes& axes, const Rows& rows) {
+  if (!axes.x.unit || !(axes.x.unit->factor.dimension == length)) return false;
+  std::vector<double> x, load;
+  for (const std::size_t i : rows.kept) {
+    const auto number = [&](const Column& column) {
+      return measured_number(table.rows[i].fields[column.index].text, table.decimal)
+          .value_or(std::nan(""));
+    };
+    x.push_back(number(axes.x));
+    load.push_back(number(axes.y));
+  }
+  return only_retracts(x, load);
+}
+
 // Keeps the rows up to the largest change of the load (`approach`), or those after it (`retract`).
-void split_at_peak(const RawTable& table, const DataLayout& layout, const Column& y, Rows& rows) {
+void split_at_peak(const RawTable& table, const DataLayout& layout, const Axes& axes, Rows& rows) {
+  const Column& y = axes.y;
   const bool approach = layout.segment == "approach";
   if (!approach && layout.segment != "retract")
     throw InputError({table.file, table.header_line, 0},
                      "has no column `segment` or `step` for `--segment " + layout.segment +
                          "`; give `approach` or `retract`");
+  if (!approach && is_retract(table, axes, rows)) {
+    rows.notes.push_back("`" + axes.x.name +
+                         "` goes one way only, and its load changes most at its first rows: all of "
+                         "them are taken as the retract");
+    return;
+  }
   std::size_t peak = 0;
   double largest = -1.0;
   std::optional<double> start;  // a load cell with an offset does not begin at 0
@@ -262,7 +285,7 @@ Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Axes& ax
     keep_segment(table, layout, *column, rows);
     return rows;
   }
-  split_at_peak(table, layout, axes.y, rows);
+  split_at_peak(table, layout, axes, rows);
   return rows;
 }
 

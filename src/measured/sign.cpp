@@ -3,19 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "measured/unit.h"
 
 namespace palpate::measured {
 namespace {
 
-constexpr Dimension pressure{-1, 1, -2};
-
 // Least ratio of the larger to the smaller change; adhesion and noise are smaller than a third.
 constexpr double clear = 3.0;
 
-bool is_load(const Dimension& dimension) { return dimension == force || dimension == pressure; }
+bool is_load(const Dimension& dimension) { return dimension == force || dimension == stress; }
 
 void turn(std::vector<double>& si, std::vector<double>& written) {
   for (double& value : si) value = 0.0 - value;  // 0 stays 0 and does not become -0
@@ -78,6 +78,26 @@ void turn_length(MeasuredCurve& curve, std::size_t rest) {
 
 }  // namespace
 
+bool only_retracts(std::span<const double> x, std::span<const double> load) {
+  std::vector<double> way, change;  // from the first row
+  std::optional<std::size_t> first;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(load[i])) continue;
+    if (!first) first = i;
+    last = i;
+    way.push_back(std::abs(x[i] - x[*first]));
+    change.push_back(std::abs(load[i] - load[*first]));
+  }
+  if (way.size() < 4 || way.back() < 0.9 * *std::max_element(way.begin(), way.end())) return false;
+  if (!(std::abs(load[*first]) > std::abs(load[last]))) return false;
+  const auto most = std::max_element(change.begin(), change.end());
+  const auto half = std::find_if(way.begin(), way.end(), [&](double each) {
+    return each >= 0.5 * way[as_index(most - change.begin())];
+  });
+  return change[as_index(half - way.begin())] > 0.5 * *most;
+}
+
 void orient(MeasuredCurve& curve, const DataLayout& layout) {
   const std::string& said = layout.compression;
   if (!said.empty() && said != "positive" && said != "negative" && said != "auto")
@@ -90,7 +110,9 @@ void orient(MeasuredCurve& curve, const DataLayout& layout) {
                                              "` is no load, to which `--compression negative` "
                                              "could apply; name a column of forces with `--y`");
   }
-  const std::size_t rest = layout.segment.starts_with("retract") ? curve.y.size() - 1 : 0;
+  const bool retract = layout.segment.starts_with("retract") ||
+                       (curve.x_axis.dimension == length && only_retracts(curve.x, curve.y));
+  const std::size_t rest = retract ? curve.y.size() - 1 : 0;
   const bool negative = said == "negative" || load_is_negative(curve, rest);
   if (negative) {
     turn(curve.y, curve.y_written);

@@ -13,8 +13,6 @@ struct Alias {
   WrittenUnit unit;
 };
 
-constexpr Dimension time{0, 0, 1};
-constexpr Dimension stress{-1, 1, -2};
 constexpr Dimension rate{0, 0, -1};
 constexpr Dimension mass{0, 1, 0};
 

@@ -11,6 +11,8 @@ namespace palpate::measured {
 
 inline constexpr Dimension length{1, 0, 0};
 inline constexpr Dimension force{1, 1, -2};
+inline constexpr Dimension time{0, 0, 1};
+inline constexpr Dimension stress{-1, 1, -2};
 
 struct WrittenUnit {
   std::string text;  // palpate's spelling: `um` for `µm` and `micron`; empty if dimensionless

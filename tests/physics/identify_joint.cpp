@@ -97,6 +97,36 @@ TEST(IdentifyJoint, OneRadiusDoesNot) {
   EXPECT_TRUE(found.unknowns[0].tied && found.unknowns[1].tied);
 }
 
+// A test with forty times the noise of another adds little to what both say.
+TEST(IdentifyJoint, EachTestWeighsByItsOwnNoise) {
+  const test::IdentifyScene scene = test::identify_scene("hertz");
+  const identify::Measurement clean = test::clean_curve(scene);
+  const identify::Measurement good = test::noisy(clean, 0.002, 1);
+  const identify::Measurement bad = test::noisy(clean, 0.08, 2);
+  const auto family = scenario::parse(scene.text, "test.toml", {});
+  const auto& one = family.cases.front().scenario;
+  const std::vector<const scenario::Scenario*> both{&one, &one};
+  const identify::IdentifyOptions options{.model_error = false, .profiles = false};
+  const std::vector<std::string> asked{"tissue.young_modulus=1..500 kPa",
+                                       "contact_point@all=-0.1..0.6 mm"};
+  const auto alone = identify::identify(good, family, identify::read_unknowns(asked, one), options);
+  const auto joint = identify::identify({{&good, &family}, {&bad, &family}},
+                                        identify::read_unknowns(asked, both), options);
+  // The errors of the two add as the inverse squares of their noise.
+  EXPECT_NEAR(*joint.unknowns[0].std_error / *alone.unknowns[0].std_error, 1.0, 0.2);
+}
+
+// A model's error widens every interval, also where the force falls as the unknown grows.
+TEST(IdentifyJoint, TheModelsErrorWidensTheIntervalOfAThickness) {
+  Joint joint{{layer_press("20 mm")}, {"tissue.shape.size.3=3..9 mm"}};
+  const auto width = [&](bool error) {
+    const identify::Interval interval = identify::trusted(
+        joint.found(1, {.searches = 1, .model_error = error, .profiles = false}).unknowns[0]);
+    return *interval.high - *interval.low;
+  };
+  EXPECT_GT(width(true), width(false));
+}
+
 // A sensor that shows 1.2 times the force 0.05 s late, beside a good one on the same tissue.
 TEST(IdentifyJoint, GainAndDelayOfASensor) {
   test::IdentifyScene hold = test::identify_scene("viscous branch");

@@ -328,6 +328,27 @@ TEST(Identify, ContactPointMovesTheModulus) {
   EXPECT_LT(earlier, 0.0);
 }
 
+// The record begins one row after the step, and its first row is taken as the step.
+TEST(Identify, AStepBetweenTwoRowsIsInTheInterval) {
+  const test::IdentifyScene scene = test::identify_scene("relaxation");
+  identify::Measurement late = test::noisy(test::clean_curve(scene), 0.0005, 3);
+  const double gap = late.x[1] - late.x[0];
+  late.x.pop_back();
+  late.y.erase(late.y.begin());
+  const auto contained = [&] {
+    const auto found = test::identified(scene, late, {.searches = 1});
+    for (std::size_t i = 0; i < found.unknowns.size(); ++i)
+      if (found.unknowns[i].unknown.key == "tissue.instantaneous_ratio") {
+        const identify::Interval interval = identify::trusted(found.unknowns[i]);
+        return *interval.low <= scene.true_values[i] && scene.true_values[i] <= *interval.high;
+      }
+    return false;
+  };
+  EXPECT_FALSE(contained());
+  late.starts = {-gap};
+  EXPECT_TRUE(contained());
+}
+
 TEST(Identify, RefusesWhatTheDataCannotAnswer) {
   const IdentifyScene& scene = test::identify_scene("hertz");
   identify::Measurement curve = test::clean_curve(scene);
@@ -371,6 +392,31 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
             std::to_string(points) + " points are left out: the way back from the deepest travel");
   EXPECT_EQ(found.left_out, static_cast<int>(points));
   EXPECT_EQ(found.x.size(), points);  // up to 2.2 mm, where the deepest stands twice
+}
+
+// A hold that goes on for longer than the scenario's is lengthened; a finger that leaves ends it.
+TEST(Identify, ALongerHoldIsLengthenedAndAWithdrawalIsLeftOut) {
+  const IdentifyScene& scene = test::identify_scene("viscous branch");
+  const identify::Measurement curve = test::clean_curve(scene);
+  for (const double part : {0.8, 0.0}) {
+    identify::Measurement longer = curve;
+    for (int i = 1; i <= 20; ++i) {
+      longer.x.push_back(curve.x.back() + 0.02 * i);
+      longer.y.push_back(part * curve.y.back());
+    }
+    const auto found = test::identified(scene, longer, {.searches = 1, .profiles = false});
+    EXPECT_EQ(found.left_out, part == 0.0 ? 20 : 0);
+  }
+}
+
+// The scenario that gives the fitted curve has the reading of the cell without load.
+TEST(Identify, TheOffsetIsInTheScenario) {
+  const auto scene = with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa",
+                                             "contact_point=-0.1..0.6 mm", "force_offset=-1..1 N"});
+  identify::Measurement curve = test::clean_curve(scene);
+  for (double& each : curve.y) each += 0.05;
+  const auto found = test::identified(scene, curve, {.searches = 1, .profiles = false});
+  EXPECT_NEAR(found.scenario.contact.ambient_force, 0.05, 1e-5);  // rows are interpolated to that
 }
 
 // Of a compression and its hold, over time all points are taken and the programme is long enough;

@@ -117,6 +117,32 @@ TEST_F(FitCurves, units_rates_and_titles) {
     EXPECT_NE(said.find(line), std::string::npos) << said;
 }
 
+// Of three columns a model over time takes the time, and what relaxes or creeps over it.
+TEST_F(FitCurves, models_over_time_take_the_time) {
+  const auto write = [&](const std::string& head, bool creeps) {
+    std::string text = head + "\n";
+    for (int i = 0; i < 60; ++i) {
+      const double fallen = std::exp(-0.1 * i / 2.0);
+      const double part = creeps ? 0.1 * (1.0 - fallen) : 0.05;
+      text += number_text(0.1 * i) + "," + number_text(part) + "," +
+              number_text(creeps ? 4.0 : 1.0 + 2.0 * fallen) + "\n";
+    }
+    write_file(folder_ / "made.csv", text);
+  };
+  for (const char* load : {"stress (kPa)", "force (N)"}) {
+    write("time (s),displacement (mm)," + std::string(load), false);
+    fit("made.csv", {"--model", "prony", "--terms", "1"});
+    EXPECT_NEAR(of("tau_1").estimate, 2.0, 1e-6);  // exact data
+    EXPECT_TRUE(says("note: x is `time (s)` and y is `" + std::string(load) + "`")) << said_;
+  }
+  for (const char* creep : {"displacement (mm)", "strain"}) {
+    write("time (s)," + std::string(creep) + ",force (N)", true);
+    fit("made.csv", {"--model", "kelvin_voigt"});
+    EXPECT_NEAR(of("tau").estimate, 2.0, 1e-6);
+    EXPECT_TRUE(says("note: x is `time (s)` and y is `" + std::string(creep) + "`")) << said_;
+  }
+}
+
 // The curve bends away from its level so slowly that its first clear row is 0.5 s late.
 TEST_F(FitCurves, a_creep_without_a_jump_begins_where_the_squares_are_least) {
   table(

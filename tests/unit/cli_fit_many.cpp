@@ -136,5 +136,28 @@ TEST_F(FitMany, DataAdvisesAModulusWhereTheSpecimenGivesWay) {
   EXPECT_NE(ended.out.find("--model modulus --height"), std::string::npos) << ended.out;
 }
 
+// Between platens the force grows as the displacement does, with or without a toe.
+TEST_F(FitMany, DataAdvisesAModulusForAStraightLine) {
+  for (const double toe : {0.0, 0.3}) {
+    std::string text = "Extension (mm),Load (N)\n";
+    for (int i = 0; i <= 80; ++i) {
+      const double noise = 0.02 * std::sin(7.0 * i * i);
+      text += std::to_string(0.02 * i) + "," +
+              std::to_string(4.0 * std::max(0.02 * i - toe, 0.0) + noise) + "\n";
+    }
+    write_file(folder_ / "platens.csv", text);
+    const Ended ended = palpate(folder_.path(), {"data", "platens.csv"});
+    EXPECT_NE(ended.out.find("a straight line describes the curve better"), std::string::npos)
+        << ended.out;
+    EXPECT_NE(ended.out.find("--model modulus --height"), std::string::npos) << ended.out;
+  }
+  write_file(folder_ / "stress.csv", "strain,stress (kPa)\n0,0\n0.1,2\n0.2,4\n0.3,6\n");
+  const Ended stress = palpate(folder_.path(), {"data", "stress.csv"});
+  EXPECT_NE(stress.out.find("--x-unit UNIT --model modulus"), std::string::npos) << stress.out;
+  write_file(folder_ / "mass.csv", "Distance (mm),mass (g)\n0,0\n1,2\n2,4\n3,6\n");
+  const Ended mass = palpate(folder_.path(), {"data", "mass.csv"});
+  EXPECT_NE(mass.out.find("--y-unit gf --model hertz"), std::string::npos) << mass.out;
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -22,9 +22,7 @@ struct Pulled {
 };
 
 // JKR by its contact radius, from the deepest to the opening, then free rows; h_0 = 1 um.
-Pulled jkr_rows(double noise, std::uint32_t seed) {
-  std::mt19937 engine(seed);
-  std::normal_distribution<double> normal;
+Pulled jkr_rows() {
   Pulled rows;
   const double opening = std::cbrt(pi * sticky * bead * bead / (8.0 * reduced));
   const double pull = 1.5 * pi * sticky * bead;
@@ -39,7 +37,7 @@ Pulled jkr_rows(double noise, std::uint32_t seed) {
     rows.depth.push_back(last - 4e-9 * i);
     rows.force.push_back(0.0);
   }
-  for (double& each : rows.force) each += 0.1 * pull + noise * pull * normal(engine);
+  for (double& each : rows.force) each += 0.1 * pull;
   return rows;
 }
 
@@ -94,7 +92,7 @@ TEST(Adhesive, DerivativesAreThoseOfTheForce) {
 }
 
 TEST(Adhesive, JkrExactlyAndChosenByTabor) {
-  const Pulled rows = jkr_rows(0.0, 1);
+  const Pulled rows = jkr_rows();
   const Fit fit = fit_adhesive(rows.depth, rows.force,
                                {.radius = bead, .poisson_ratio = 0.5, .way = Way::retract}, {});
   EXPECT_EQ(fit.name, "jkr");
@@ -130,29 +128,64 @@ TEST(Adhesive, DmtOfAStiffContact) {
   EXPECT_NEAR(of(fit, "w"), 20.0, 1e-6 * 20.0);
 }
 
+// JKR over even depths, by bisection of the contact radius between the opening at a fixed depth and
+// a radius that is too large; beyond the opening the tip is free. The noise is white, or 0.9 of
+// that of the row before and some more.
 TEST(Adhesive, IntervalsHold) {
-  int young = 0;
-  int work = 0;
-  for (std::uint32_t seed = 0; seed < 100; ++seed) {
-    const Pulled rows = jkr_rows(0.03, seed);
-    const Fit fit = fit_adhesive(rows.depth, rows.force,
-                                 {.radius = bead,
-                                  .poisson_ratio = 0.5,
-                                  .way = Way::retract,
-                                  .residuals = Residuals::correlated},
-                                 {.law = Adhesion::jkr});
-    young += fit.parameters[0].ci95_low <= 7.5 && 7.5 <= fit.parameters[0].ci95_high ? 1 : 0;
-    work += fit.parameters[1].ci95_low <= 0.02 && 0.02 <= fit.parameters[1].ci95_high ? 1 : 0;
+  const auto depth_of = [](double a) {
+    return a * a / bead - std::sqrt(2.0 * pi * a * sticky / reduced);
+  };
+  // dh/da = 0: 2 a / R = sqrt(pi w / (2 E* a))
+  const double opening = std::cbrt(pi * sticky * bead * bead / (8.0 * reduced));
+  std::vector<double> depth, clean;
+  for (int i = 0; i < 400; ++i) {
+    depth.push_back(5e-7 - 2.5e-9 * i);
+    double low = opening;
+    double high = bead;
+    for (int k = 0; k < 60; ++k)
+      (depth_of(0.5 * (low + high)) < depth.back() ? low : high) = 0.5 * (low + high);
+    const double force = 4.0 * reduced * low * low * low / (3.0 * bead) -
+                         std::sqrt(8.0 * pi * sticky * reduced * low * low * low);
+    clean.push_back(depth.back() < depth_of(opening) ? 0.0 : force);
   }
-  EXPECT_GE(young, 90);  // 95 expected; 90 is reached in 98 of 100 such counts
-  EXPECT_GE(work, 90);
+  const double scatter = 0.03 * 1.5 * pi * sticky * bead;
+  for (const double kept : {0.0, 0.9}) {
+    int young = 0;
+    int work = 0;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+      std::mt19937 engine(seed);
+      std::normal_distribution<double> normal;
+      std::vector<double> force = clean;
+      double noise = normal(engine);
+      for (double& each : force) {
+        each += scatter * noise;
+        noise = kept * noise + std::sqrt(1.0 - kept * kept) * normal(engine);
+      }
+      const Fit fit = fit_adhesive(depth, force,
+                                   {.radius = bead,
+                                    .poisson_ratio = 0.5,
+                                    .way = Way::retract,
+                                    .residuals = Residuals::correlated},
+                                   {.law = Adhesion::jkr});
+      young += fit.parameters[0].ci95_low <= 7.5 && 7.5 <= fit.parameters[0].ci95_high ? 1 : 0;
+      work += fit.parameters[1].ci95_low <= 0.02 && 0.02 <= fit.parameters[1].ci95_high ? 1 : 0;
+    }
+    EXPECT_GE(young, 90) << kept;  // 95 expected; 90 is reached in 98 of 100 such counts
+    EXPECT_GE(work, 90) << kept;
+  }
 }
 
 TEST(Adhesive, Refusals) {
-  Pulled rows = jkr_rows(0.0, 1);
+  Pulled rows = jkr_rows();
   const ContactTest test{.radius = bead, .way = Way::retract};
   Pulled hertz = rows;
   for (double& each : hertz.force) each = std::max(each, hertz.force.back());
+  EXPECT_TRUE(test::refusal([&] {
+                return fit_adhesive(hertz.depth, hertz.force, test, {});
+              }).starts_with("the force shows no pull-off"));
+  std::mt19937 engine(3);  // nor does the least of many rows with noise
+  std::normal_distribution<double> normal(0.0, 0.02 * pi * sticky * bead);
+  for (double& each : hertz.force) each += normal(engine);
   EXPECT_TRUE(test::refusal([&] {
                 return fit_adhesive(hertz.depth, hertz.force, test, {});
               }).starts_with("the force shows no pull-off"));

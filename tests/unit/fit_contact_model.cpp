@@ -63,6 +63,17 @@ TEST(ContactModel, HertzExactly) {
   EXPECT_NEAR(fit.r2, 1.0, 1e-12);  // rounding
 }
 
+// A contact point and an offset that are 0 but for rounding are determined all the same.
+TEST(ContactModel, ExactlyFromZero) {
+  Curve curve = hertz_curve();
+  for (double& each : curve.depth) each -= contact_at;
+  const Fit fit = fit_contact(curve.depth, curve.force, {radius, poisson});
+  ASSERT_EQ(word(fit.termination), "converged");
+  EXPECT_NEAR(fit.parameters[0].estimate, 72.4, 1e-8 * 72.4);  // exact data
+  for (std::size_t i = 1; i < fit.parameters.size(); ++i)
+    EXPECT_NEAR(fit.parameters[i].estimate, 0.0, 1e-8) << fit.parameters[i].name;
+}
+
 TEST(ContactModel, LayerExactlyAndHertzTooStiffOnIt) {
   for (const contact::LayerBase base :
        {contact::LayerBase::bonded, contact::LayerBase::frictionless}) {

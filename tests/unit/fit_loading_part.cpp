@@ -44,6 +44,32 @@ TEST(StepOrigin, OfARelaxation) {
   EXPECT_NEAR(at(0.0, 2.0).best.first, 2.0, 1e-9);
 }
 
+// Rheometers count the time from the step and space their rows by a factor, also by a small one
+// that is written with three digits. Even spacing is none, however late the clock begins.
+TEST(StepOrigin, OfTimesThatAreSpacedByAFactor) {
+  const auto sentence = [](const std::vector<double>& x) {
+    std::vector<double> y;
+    for (const double t : x) y.push_back(3.0 * std::pow(t, -0.2));
+    const StepOrigin found = step_origin(x, y, AfterStep::relaxes, 0.0);
+    EXPECT_EQ(found.sentence.starts_with("the times are spaced"), found.best.time == 0.0);
+    return found.sentence;
+  };
+  for (const int rows : {20, 200}) {
+    std::vector<double> x;
+    for (int i = 0; i < rows; ++i) {
+      const double t = std::pow(10.0, -2.0 + 4.0 * i / (rows - 1));
+      const double digit = std::pow(10.0, std::floor(std::log10(t)) - 2.0);
+      x.push_back(digit * std::round(t / digit));
+    }
+    EXPECT_TRUE(sentence(x).starts_with("the times are spaced by a factor")) << rows;
+  }
+  for (const double first : {3.0, 30.0, 300.0}) {
+    std::vector<double> x;
+    for (int i = 0; i < 12; ++i) x.push_back(first + 0.1 * first * i);
+    EXPECT_TRUE(sentence(x).starts_with("the record begins at")) << first;
+  }
+}
+
 TEST(StepOrigin, ACreepThatBeganBeforeTheRecordIsRefused) {
   std::vector<double> x, y;
   for (int i = 0; i < 50; ++i) {
@@ -90,6 +116,19 @@ TEST(StepOrigin, OfARampIsItsBeginning) {
 }
 
 // One row on the ramp is enough, and none is a step.
+// A record that begins half-way up a ramp of 2 s: its line leads back to the beginning.
+TEST(StepOrigin, OfARampThatTheRecordMissesInPart) {
+  Rows rows;
+  for (int i = 0; i < 100; ++i) {
+    const double t = 0.1 * i;
+    rows.x.push_back(5.0 + t);
+    rows.y.push_back(t < 1.0 ? 1.0 + t : 1.0 + std::exp(-(t - 1.0) / 3.0));
+  }
+  const Loading found = step_origin(rows.x, rows.y, AfterStep::relaxes, std::nullopt).best;
+  EXPECT_NEAR(found.time, 4.0, 0.02);  // its end is found to a fifth of a row
+  EXPECT_NEAR(found.ramp, 2.0, 0.02);
+}
+
 TEST(StepOrigin, OfAShortRamp) {
   const std::vector<double> x{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0};
   std::vector<double> y{0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 1.8, 1.65, 1.55, 1.5};

@@ -226,5 +226,42 @@ TEST(Prony, LiquidsExactly) {
     EXPECT_NEAR(fit.parameters[i].estimate, truth, 1e-8) << i;  // exact data
 }
 
+// A row without a strain is left out, like one without a stress.
+TEST(Prony, ARowWithoutAHistoryIsLeftOut) {
+  const RelaxationCurve curve = curve_of(PronySeries::Kind::relaxation);
+  PronySeries series;
+  series.history.samples.assign(curve.x.size(), 1.0);
+  series.history.samples[200] = std::nan("");
+  const Fit fit = fit_prony(curve.x, curve.y, series);
+  EXPECT_EQ(fit.left_out, 1);
+  EXPECT_NEAR(fit.parameters[4].estimate, 2.0, 1e-6);  // exact data
+}
+
+// y = y_0 H + y_flow int H + y_1 (1 - e^(-t/tau)) under a load that grows for 2 s: the terms'
+// integrals over the ramp, divided by its duration.
+TEST(Prony, ALiquidFlowsDuringTheRamp) {
+  const double ramp = 2.0;
+  const double tau = 1.5;
+  RelaxationCurve curve;
+  for (int i = 0; i <= 200; ++i) {
+    const double t = 0.05 * i;
+    const double load = std::min(t / ramp, 1.0);
+    const double flow = t < ramp ? 0.5 * t * t / ramp : t - 0.5 * ramp;
+    const double left = t < ramp ? tau / ramp * (1.0 - std::exp(-t / tau))
+                                 : tau / ramp * std::expm1(ramp / tau) * std::exp(-t / tau);
+    curve.x.push_back(t);
+    curve.y.push_back(1.0 * load + 0.3 * flow + 2.0 * (load - left));
+  }
+  PronySeries series{PronySeries::Kind::creep, 1};
+  series.liquid = true;
+  series.history.ramp = ramp;
+  const Fit fit = fit_prony(curve.x, curve.y, series);
+  ASSERT_EQ(fit.parameters.size(), 4U);
+  const std::vector<double> truth{1.0, 0.3, 2.0, tau};
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_NEAR(fit.parameters[i].estimate, truth[i], 1e-6)
+        << fit.parameters[i].name;  // exact data
+}
+
 }  // namespace
 }  // namespace palpate::fit

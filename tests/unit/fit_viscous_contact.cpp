@@ -137,6 +137,26 @@ TEST(ViscousContact, IntervalsHold) {
   EXPECT_GE(exponent, 35);
 }
 
+// In other units of time, E_1 is another combination of modulus and exponent, with its own error:
+// E_1' = E_1 10^beta.
+TEST(ViscousContact, TheErrorOfTheModulusAtOneSecondContainsThatOfTheExponent) {
+  Press press = power_law(200, 0.01, 5);
+  const ContactTest test{.radius = probe, .poisson_ratio = 0.5};
+  const Fit fit = fit_viscous(press.time, press.depth, press.force, test, Viscous::power_law);
+  for (double& each : press.time) each *= 10.0;
+  const Fit slow = fit_viscous(press.time, press.depth, press.force, test, Viscous::power_law);
+  const double young = fit.parameters[0].estimate;
+  const double log = std::log(10.0);
+  const std::size_t count = fit.parameters.size();
+  const double variance = fit.covariance[0] / (young * young) +
+                          2.0 * log * fit.covariance[1] / young +
+                          log * log * fit.covariance[count + 1];
+  const Estimate& other = slow.parameters[0];
+  EXPECT_NEAR(other.estimate, young * std::pow(10.0, fit.parameters[1].estimate), 1e-6 * young);
+  // Both searches end to about 1e-6 of a standard error.
+  EXPECT_NEAR(other.std_error / other.estimate, std::sqrt(variance), 1e-4 * std::sqrt(variance));
+}
+
 TEST(ViscousContact, Refusals) {
   Press press = approach_of(power_law(100, 0.0, 0));
   press.time[10] = press.time[9];

@@ -167,6 +167,41 @@ TEST(Measured, PartsOfATable) {
             "data.csv:1: the column `Set` contains no `3`; its values are 1, 2");
 }
 
+// Two columns of words divide nothing, nor does one that has the same part in every row.
+TEST(Measured, OnlyOneColumnOfWordsDividesACurve) {
+  EXPECT_EQ(read("a,b,d_mm,F_N\nload,approach,1,3\nload,retract,2,4\n").y, (Numbers{3, 4}));
+  EXPECT_EQ(read("a,b,d_mm,F_N\nx,approach,1,3\nx,retract,2,4\n").y, Numbers{3});
+  EXPECT_TRUE(read("b,d_mm,F_N\nextend,1,3\nextend,2,4\n").notes.empty());
+}
+
+TEST(Measured, AStretchBeginsNearOne) {
+  EXPECT_TRUE(read("stretch,P_kPa\n1,0\n1.2,3\n").x_axis.stretch);
+  EXPECT_FALSE(read("stretch,P_kPa\n0,0\n0.2,3\n").x_axis.stretch);
+}
+
+// 0.1 N/s on a press whose free ends last ten rows each; a row without a force is none of the line.
+TEST(Measured, ADriftIsTheLineThroughTheFreeEnds) {
+  std::string text = "t_s,d_mm,F_N\n";
+  for (int i = 0; i < 60; ++i) {
+    const int in = std::clamp(i < 30 ? i - 10 : 49 - i, 0, 19);
+    text += std::to_string(i) + "," + std::to_string(in) + "," +
+            (i == 15 ? "" : std::to_string(in * in + 0.1 * i)) + "\n";
+  }
+  DataLayout layout{.x = "d_mm", .y = "F_N"};
+  layout.drift = "t_s";
+  for (const char* segment : {"", "retract"}) {
+    layout.segment = segment;
+    const MeasuredCurve curve = read(text, layout);
+    const double start = curve.y.back();
+    for (std::size_t i = 0; i < curve.y.size(); ++i)
+      EXPECT_NEAR(curve.y[i] - start, 1e6 * curve.x[i] * curve.x[i], 1e-9) << i;
+  }
+  layout.segment = "";
+  layout.rows = "1..30";
+  EXPECT_TRUE(
+      refusal(text, layout).starts_with("data.csv: does not begin and end at the same place"));
+}
+
 TEST(Measured, ArchivesSayHowToUnpackThem) {
   EXPECT_EQ(refusal("\x1F\x8B\x08 etc."),
             "data.csv: is compressed by gzip; unpack it with `gunzip -k`");
@@ -297,6 +332,37 @@ TEST(Measured, RefusalsHavePlaces) {
             "data.csv: no row is left with a number in `a` and in `b`; name columns that are "
             "filled");
   EXPECT_THROW(static_cast<void>(read_measured("/nowhere/data.csv", {})), InputError);
+}
+
+// Without a column of segments the approach ends at the largest change of load, which in a file of
+// the retract alone is the pull-off.
+TEST(Measured, ARetractAloneIsKeptWhole) {
+  const char* adhesive = "x_mm,F_N\n3,9\n2,5\n1,2\n0,-3\n-1,0\n-2,0\n";
+  const MeasuredCurve curve = read(adhesive, {.segment = "retract"});
+  EXPECT_EQ(curve.y, (Numbers{9, 5, 2, -3, 0, 0}));
+  EXPECT_EQ(curve.notes,
+            (std::vector<std::string>{"`x_mm` goes one way only, and its load changes most at its "
+                                      "first rows: all of them are taken as the retract"}));
+  // A height that grows as the tip withdraws, under a load that reads negative in compression.
+  EXPECT_EQ(read("x_mm,F_N\n-3,-9\n-2,-5\n-1,-2\n0,3\n1,0\n2,0\n", {.segment = "retract"}).y,
+            (Numbers{-9, -5, -2, 3, 0, 0}));
+  // Without adhesion the largest change is that of any free row, also of the last.
+  EXPECT_EQ(
+      read("x_mm,F_N\n3,9\n2,5\n1,2\n0,0\n-1,0.1\n-2,-0.1\n", {.segment = "retract"}).y.size(), 6U);
+  // An approach whose specimen gave way, and a whole press, end at their largest load.
+  EXPECT_EQ(read("x_mm,F_N\n0,0\n1,1\n2,4\n3,9\n4,5\n", {.segment = "retract"}).y, Numbers{5});
+  EXPECT_EQ(read("x_mm,F_N\n0,0\n1,3\n2,4\n1,2\n0,0\n", {.segment = "retract"}).y, (Numbers{2, 0}));
+  // Its rest is its end, so that its signs are told as well.
+  const DataLayout automatic{.compression = "auto"};
+  EXPECT_TRUE(read(adhesive, automatic).notes.empty());
+  const MeasuredCurve height = read("x_mm,F_N\n-3,9\n-2,5\n-1,2\n0,-3\n1,0\n2,0\n", automatic);
+  EXPECT_EQ(height.y, (Numbers{9, 5, 2, -3, 0, 0}));
+  EXPECT_EQ(height.x.front(), 3e-3);
+  // A load that saturates begins at rest, also where it gives way.
+  EXPECT_EQ(read("x_mm,F_N\n0,0\n1,6\n2,8\n3,9\n4,7\n", {.segment = "retract"}).y, Numbers{7});
+  EXPECT_TRUE(read("x_mm,F_N\n0,0\n1,6\n2,8\n3,9\n4,9.5\n", automatic).notes.empty());
+  // Over time every record goes one way.
+  EXPECT_EQ(read("t_s,F_N\n0,0\n1,7\n2,9\n3,5\n", {.segment = "retract"}).y, Numbers{5});
 }
 
 TEST(Measured, CompressionThatReadsNegative) {
