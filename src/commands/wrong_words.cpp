@@ -78,6 +78,9 @@ std::string reason(const std::string& what) {
     return ticked(name) + " wants a number from " + joined(ends, " ") + ", got " +
            ticked(rest.substr(0, rest.rfind(" not in range ")));
   }
+  if (cut("Could not convert: ", name, rest) && rest.find(" = ") != std::string::npos)
+    return ticked(rest.substr(0, rest.find(" = "))) + " wants a plain number, got " +
+           ticked(rest.substr(rest.find(" = ") + 3));
   if (cut(": At Most 1 required but received ", name, rest))
     return ticked(name) + " is given " + rest + " times; give it once";
   if (what.ends_with(" missing") && cut(": 1 required ", name, rest))

@@ -130,6 +130,9 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
       {{"fit", "d.csv", "--x", "h", "--y", "F", "--model", "hertz", "--poisson", "2"},
        "`palpate fit` cannot be read: `--poisson` wants a number from 0 to 0.5, got `2`; `palpate "
        "fit --help` shows how to write it"},
+      {{"fit", "d.csv", "--x", "t", "--y", "F", "--model", "prony", "--origin", "0 s"},
+       "`palpate fit` cannot be read: `--origin` wants a plain number, got `0 s`; `palpate fit "
+       "--help` shows how to write it"},
       {{"run", "a.toml", "--out"},
        "`palpate run` cannot be read: `--out` wants a value behind it; `palpate run --help` shows "
        "how to write it"},
