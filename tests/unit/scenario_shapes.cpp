@@ -111,6 +111,14 @@ TEST(Shapes, GoWithTheirMeshes) {
             "press.toml:6:42: `nodes` is left unread: it is used only without `edge`\n");
 }
 
+TEST(Shapes, AMeshThatIsTheBodyIsRead) {
+  const std::string body = shape("kind = \"as_meshed\"") + "mesh = { kind = \"file\", file = \"" +
+                           PALPATE_SOURCE_DIR
+                           "/tests/cases/scenes/skin_lump.msh\", unit = \"mm\" }\n";
+  for (const char* model : {"solid", "hertz"})
+    EXPECT_EQ(notes(press + body + "[solver]\nmodel = \"" + model + "\"\n"), "") << model;
+}
+
 TEST(Shapes, HalfSpaceHasNoMesh) {
   const std::string half = shape("kind = \"half_space\"");
   EXPECT_EQ(refusal(press + half), "accepted") << "`auto` is `hertz` there";
