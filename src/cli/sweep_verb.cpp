@@ -338,7 +338,18 @@ std::string progress_text(const sweep::SweepProgress& now, double seconds) {
   return text;
 }
 
+// The file of `--done` may replace one of an earlier run, or an empty one.
+void check_done(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) return;
+  const std::string text = read_text(path);
+  if (!text.empty() && text.substr(0, text.find(' ')).find("-of-") == std::string::npos)
+    throw InputError(
+        {path, 0, 0},
+        "exists and was not written by `--done`; name another file, or remove this one");
+}
+
 int sweep_run(const Sweep& command, const Talk& talk) {
+  if (!command.done.empty()) check_done(command.done);
   sweep::SweepTask task{.shard = sweep::parse_shard(command.shard),
                         .workers = worker_count(command.jobs)};
   if (command.act == Sweep::Act::retry) task.which = sweep::SweepTask::Which::failed;

@@ -184,6 +184,11 @@ TEST_F(SweepVerb, FailedCasesAreAccepted) {
       "[[step]]\nkind = \"creep\"\nload_time = \"0.6 s\"\n"
       "[sweep]\n\"tissue.young_modulus\" = [\"8 kPa\", \"30 kPa\"]\n";
   plan(text);
+  const std::string cases = read_file(folder_ / "out/s_sweep/plan.csv");
+  const Ended wrong = sweep({"run", "out/s_sweep", "--done", "out/s_sweep/plan.csv"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("plan.csv: exists and was not written by `--done`"), std::string::npos);
+  EXPECT_EQ(read_file(folder_ / "out/s_sweep/plan.csv"), cases);
   EXPECT_EQ(sweep({"run", "out/s_sweep", "--done", "done/1"}).code, 7);
   EXPECT_FALSE(fs::exists(folder_ / "done/1"));
   const Ended run = sweep({"run", "out/s_sweep", "--accept-failed", "--done", "done/1"});
