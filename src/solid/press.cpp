@@ -204,7 +204,7 @@ double Contact::energy(const Vector& displacement, std::span<const Indenter> ind
 namespace {
 
 constexpr double stiff = 100.0;     // penalty over E / h
-constexpr double last_step = 3e-4;  // of the travel: Newton's, what is left is of its square
+constexpr double last_step = 3e-4;  // of the travel: Newton's, the next is a sixth of it or less
 constexpr double longest = 0.5;     // of the size: a step's largest change of displacement
 constexpr int most_steps = 40;
 constexpr int most_halvings = 5;
@@ -293,11 +293,12 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
   Vector solution;
   Vector step = Vector::Zero(u.size());
   std::vector<Met> met;
-  const std::vector<double> none, half = contact_.half_depths(indenters);
+  const std::vector<double> half = contact_.half_depths(indenters);
+  const std::span<const double> none;
   for (int i = 0; i < most_steps; ++i) {
     const double least = elements_.assemble(u, force, stiffness_);
     if (!(least > -1.0)) return std::nullopt;
-    contact_.add(u, indenters, i == 0 ? half : none, force, stiffness_, met);
+    contact_.add(u, indenters, i == 0 ? std::span(half) : none, force, stiffness_, met);
     for (int d = 0; d < static_cast<int>(u.size()); ++d)
       if (const int unknown = elements_.unknown(d); unknown >= 0) right[unknown] = -force[d];
     if (!factor()) return std::nullopt;

@@ -252,7 +252,6 @@ SweepEnd run_sweep(const SweepPlan& plan, const SweepTask& task, const std::atom
     else
       ++end.missing;
   }
-  if (task.order == SweepTask::Order::backwards) std::reverse(numbers.begin(), numbers.end());
   Runner runner(plan, task, no_more, told);
   runner.run(numbers, [&](std::uint32_t i) { return again ? results.at(i).head.attempt + 1 : 1; });
   const SweepProgress& made = runner.progress();

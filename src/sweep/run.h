@@ -15,7 +15,6 @@ struct SweepTask {
   Shard shard = {};
   int workers = 1;
   enum class Which { missing, failed } which = Which::missing;
-  enum class Order { of_the_plan, backwards } order = Order::of_the_plan;
 };
 
 struct SweepProgress {

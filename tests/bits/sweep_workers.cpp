@@ -40,15 +40,14 @@ class SweepBits : public SweepFolder {
     const std::string expected = merged(plan);
     const std::string curve = curves ? merged(plan, "strain_time.csv") : "";
     for (const std::size_t shards : {1U, 2U, 3U, 7U})
-      for (const int workers : {1, 3})
-        for (const auto way : {SweepTask::Order::of_the_plan, SweepTask::Order::backwards}) {
-          const SweepPlan again = afresh(plan);
-          for (std::size_t shard = shards; shard > 0; --shard)
-            run(again, {.shard = {shard, shards}, .workers = workers, .order = way});
-          EXPECT_EQ(merged(again), expected) << shards << " shards, " << workers << " workers";
-          if (!curves) continue;
-          EXPECT_EQ(merged(again, "strain_time.csv"), curve);
-        }
+      for (const int workers : {1, 3}) {
+        const SweepPlan again = afresh(plan);
+        for (std::size_t shard = shards; shard > 0; --shard)  // the last cases first
+          run(again, {.shard = {shard, shards}, .workers = workers});
+        EXPECT_EQ(merged(again), expected) << shards << " shards, " << workers << " workers";
+        if (!curves) continue;
+        EXPECT_EQ(merged(again, "strain_time.csv"), curve);
+      }
   }
 };
 

@@ -59,7 +59,7 @@ class Poisson : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Ratios, Poisson, testing::Values(0.1, 0.45, 0.47, 0.4999));
 
 // With the pressures of the state itself the stiffness is the derivative of the force.
-TEST_P(Poisson, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForceOfFlats) {
+TEST_P(Poisson, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForce) {
   const Mesh mesh = curved_block();
   const Isotropic tissue{50e3, GetParam()};
   Elements solid(mesh, {&tissue, 1}, free_of(mesh));

@@ -65,6 +65,29 @@ TEST(SolidPress, HasHertzsForceOnALargeBlock) {
   EXPECT_EQ(found->force.x(), 0.0);
 }
 
+// An equilibrium is the same by any way, by long steps or with a last one of almost nothing.
+TEST(SolidPress, ForcesDoNotDependOnTheWay) {
+  const double radius = 10e-3, depth = 1e-3, half = 15e-3;
+  const auto force_by = [&](std::initializer_list<double> way) {
+    Press press(block(half, {6, 6, 6}, 4.0, {10e3, 0.45}));
+    press.set_finger({Indenter::sphere(Vec3(0.0, 0.0, half + radius), radius)});
+    press.begin(Vec3::Zero());
+    double force = 0.0;
+    for (const double share : way) {
+      const auto found = press.go(Vec3(0.0, 0.0, -share * depth));
+      if (!found) return std::nan("");
+      force = found->normal();
+    }
+    return force;
+  };
+  const double want = force_by({0.25, 0.5, 1.0});
+  for (const auto& way : {std::initializer_list<double>{1.0},
+                          {0.4, 0.9999, 1.0},
+                          {0.5, 0.8, 1.0},
+                          {0.25, 0.5, 1.0, 0.9998, 1.0}})
+    EXPECT_NEAR(force_by(way), want, 2e-4 * want);
+}
+
 // A cup as wide as flat on a free block: uniaxial compression, in closed form.
 TEST(SolidPress, CompressesABlockAsTheLawSays) {
   const tissue::Isotropic tissue{10e3, 0.4};
