@@ -131,8 +131,10 @@ std::string contact_lines(const measured::MeasuredCurve& curve, bool& round, con
     round = fit.r2 >= 0.9 && !fit.gave_way && !straight;
     Details details{
         {"round_tip", round}, {"straight", straight}, {"r2", fit.r2}, {"scatter_N", fit.rmse}};
-    if (fit.parameters.size() > 1) details.emplace_back("point_mm", fit.parameters[1].estimate);
-    if (fit.parameters.size() > 2) details.emplace_back("offset_N", fit.parameters[2].estimate);
+    if (!straight && fit.parameters.size() > 1)
+      details.emplace_back("point_mm", fit.parameters[1].estimate);
+    if (!straight && fit.parameters.size() > 2)
+      details.emplace_back("offset_N", fit.parameters[2].estimate);
     talk.event("contact", details);
     if (fit.r2 < 0.9)
       return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";

@@ -151,6 +151,8 @@ TEST_F(FitMany, DataAdvisesAModulusForAStraightLine) {
         << ended.out;
     EXPECT_NE(ended.out.find("--model modulus --height"), std::string::npos) << ended.out;
   }
+  EXPECT_EQ(palpate(folder_.path(), {"data", "platens.csv", "--json"}).out.find("point_mm"),
+            std::string::npos);
   write_file(folder_ / "stress.csv", "strain,stress (kPa)\n0,0\n0.1,2\n0.2,4\n0.3,6\n");
   const Ended stress = palpate(folder_.path(), {"data", "stress.csv"});
   EXPECT_NE(stress.out.find("--x-unit UNIT --model modulus"), std::string::npos) << stress.out;
