@@ -4,8 +4,6 @@
 #include <math.h>  // j0, j1: POSIX
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <mutex>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/index.h"
 #include "base/numerics.h"
 
@@ -80,7 +79,7 @@ double stack_sinking(double u, const Layer& layer) {
       matrix.block<1, 4>(row + k, 4 * i + 4) = -lower[k]->transpose();
     }
   }
-  const Eigen::VectorXd waves = matrix.fullPivLu().solve(right);
+  const Eigen::VectorXd waves = dense::least_squares(matrix, right);
   // A half-space is displaced by 2 (1 - nu) under this load.
   return surface.down.dot(waves.head<4>()) / (2.0 * (1.0 - first.poisson_ratio));
 }
@@ -196,10 +195,10 @@ LayerSystem LayerEquation::system(double ratio, Wanted wanted) const {
   LayerSystem system;
   system.ratio_ = ratio;
   // With sqrt(w) g as the unknown the matrix is symmetric.
-  MatrixXd matrix = MatrixXd::Zero(n, n);  // its lower triangle
+  MatrixXd matrix = MatrixXd::Zero(n, n);
   const auto add_waves = [&](const VectorXd& amounts, double sign) {
     const MatrixXd waved = amounts.cwiseSqrt().asDiagonal() * cosines * root.asDiagonal();
-    matrix.selfadjointView<Eigen::Lower>().rankUpdate(waved.transpose(), sign);
+    matrix += sign * dense::inner_product(waved, waved);
   };
   add_waves(q.cwiseMax(0.0), 1.0);
   if (q.minCoeff() < 0.0) add_waves((-q).cwiseMax(0.0), -1.0);  // over softer layers, where M < 0
@@ -218,18 +217,19 @@ LayerSystem LayerEquation::system(double ratio, Wanted wanted) const {
   sums.row(1) = slope(1.0);
   for (std::size_t i = 0; i < places; ++i)
     sums.row(static_cast<Eigen::Index>(2 + i)) = slope(std::sqrt(1.0 - chebyshev_node(i, places)));
-  const Eigen::Tridiagonalization<MatrixXd> tridiagonal(matrix);
-  const MatrixXd turned = root.asDiagonal() * MatrixXd(tridiagonal.matrixQ());  // sqrt(w) U
+  const dense::Tridiagonal tridiagonal = dense::tridiagonal(matrix);
+  const MatrixXd turned = root.asDiagonal() * tridiagonal.q;  // sqrt(w) U
   system.diagonal_.resize(as_index(n));
   system.beside_.resize(as_index(n - 1));
   system.right_.resize(as_index(2 * n));
   system.sums_.resize(as_index(sums.rows() * n));
-  VectorXd::Map(system.diagonal_.data(), n) = tridiagonal.diagonal();
-  VectorXd::Map(system.beside_.data(), n - 1) = tridiagonal.subDiagonal();
+  VectorXd::Map(system.diagonal_.data(), n) = tridiagonal.diagonal;
+  VectorXd::Map(system.beside_.data(), n - 1) = tridiagonal.beside;
   MatrixXd ones_and_squares(n, 2);
   ones_and_squares << VectorXd::Ones(n), s.cwiseAbs2();
-  MatrixXd::Map(system.right_.data(), n, 2) = turned.transpose() * ones_and_squares;
-  MatrixXd::Map(system.sums_.data(), sums.rows(), n) = sums * cosines * turned;
+  MatrixXd::Map(system.right_.data(), n, 2) = dense::inner_product(turned, ones_and_squares);
+  MatrixXd::Map(system.sums_.data(), sums.rows(), n) =
+      dense::product(dense::product(sums, cosines), turned);
   return system;
 }
 
@@ -251,7 +251,7 @@ LayerSolution LayerSystem::solve(double share) const {
   g.row(n - 1) /= pivots(n - 1);
   for (Eigen::Index i = n - 2; i >= 0; --i)
     g.row(i) = (g.row(i) + share * beside_[as_index(i)] * g.row(i + 1)) / pivots(i);
-  const Eigen::MatrixX2d sums = share * (MatrixXd::Map(sums_.data(), rows, n) * g);
+  const Eigen::MatrixX2d sums = share * dense::product(MatrixXd::Map(sums_.data(), rows, n), g);
   const double integral_1 = right.col(0).dot(g.col(0));  // int_0^1 g_1 ds
   const double integral_2 = right.col(0).dot(g.col(1));
 

@@ -5,12 +5,12 @@
 #include <glog/logging.h>
 #include <pthread.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
 
+#include "base/dense.h"
 #include "base/index.h"
 #include "fit/regression.h"
 
@@ -97,14 +97,11 @@ std::vector<double> inverse_normal(std::span<const double> jacobian, std::size_t
   const Eigen::Map<const Rows> slopes(jacobian.data(), points, count);
   const Eigen::RowVectorXd unit = slopes.colwise().norm().cwiseInverse();
   if (!unit.allFinite()) return {};
-  const Eigen::HouseholderQR<Eigen::MatrixXd> split(slopes * unit.asDiagonal());
-  const Eigen::MatrixXd upper = split.matrixQR().topRows(count).triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(upper, Eigen::ComputeFullV);
-  const Eigen::VectorXd& values = parts.singularValues();
+  const dense::Svd parts = dense::svd(dense::qr(slopes * unit.asDiagonal()).r);
+  const Eigen::VectorXd& values = parts.values;
   if (!(values[count - 1] >= least * values[0])) return {};
-  const Eigen::MatrixXd root =
-      unit.asDiagonal() * parts.matrixV() * values.cwiseInverse().asDiagonal();
-  const Rows inverse = root * root.transpose();
+  const Eigen::MatrixXd root = unit.asDiagonal() * parts.v * values.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd inverse = dense::product(root, root.transpose());
   return {inverse.data(), inverse.data() + inverse.size()};
 }
 

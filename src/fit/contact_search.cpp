@@ -1,12 +1,12 @@
 // Variable projection: offset, tilt and modulus are linear for a given contact point.
 #include "fit/contact_search.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "base/dense.h"
 #include "base/index.h"
 #include "base/numerics.h"
 
@@ -58,7 +58,7 @@ class Search {
     straight_ = target_.squaredNorm();
     if (terms_ > 1) {
       const Eigen::MatrixXd line = matrix_.rightCols(terms_ - 1);
-      straight_ = (target_ - line * line.colPivHouseholderQr().solve(target_)).squaredNorm();
+      straight_ = (target_ - line * dense::least_squares(line, target_)).squaredNorm();
     }
   }
 
@@ -76,10 +76,10 @@ class Search {
     if (!(largest > 0.0) || !matrix_.col(0).allFinite()) return std::nullopt;
     matrix_.col(0) /= largest;
     const Eigen::MatrixXd normal = matrix_.transpose() * matrix_;
-    const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
-    if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 1e-13))
-      return std::nullopt;
-    const Eigen::VectorXd linear = factors.solve(matrix_.transpose() * target_);
+    const auto factors = dense::symmetric_factors(normal, 1e-13);
+    if (!factors) return std::nullopt;
+    const Eigen::VectorXd sums = matrix_.transpose() * target_;
+    const Eigen::VectorXd linear = factors->inverse * sums;
     guess.squares = (matrix_ * linear - target_).squaredNorm();
     guess.factor = linear[0] / largest;
     if (terms_ > 1) guess.offset = linear[1];

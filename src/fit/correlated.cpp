@@ -1,12 +1,12 @@
 // The likelihood needs three products of the data with themselves, whatever the correlation.
 #include "fit/correlated.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "base/dense.h"
 #include "base/index.h"
 #include "base/numerics.h"
 
@@ -31,10 +31,10 @@ struct Products {
 Products products_of(const Rows& rows) {
   const Eigen::Index n = rows.rows();
   Products made;
-  made.all = rows.transpose() * rows;
-  const Matrix cross = rows.bottomRows(n - 1).transpose() * rows.topRows(n - 1);
+  made.all = dense::inner_product(rows, rows);
+  const Matrix cross = dense::inner_product(rows.bottomRows(n - 1), rows.topRows(n - 1));
   made.next = cross + cross.transpose();
-  made.inner = rows.middleRows(1, n - 2).transpose() * rows.middleRows(1, n - 2);
+  made.inner = dense::inner_product(rows.middleRows(1, n - 2), rows.middleRows(1, n - 2));
   return made;
 }
 
@@ -47,12 +47,12 @@ struct Likelihood {
 Likelihood likelihood(const Products& products, double rho, double degrees) {
   const Matrix whitened = products.whitened(rho);
   const Eigen::Index p = whitened.rows() - 1;
-  const Eigen::LDLT<Matrix> normal(whitened.topLeftCorner(p, p));
-  if (normal.info() != Eigen::Success || !(normal.vectorD().minCoeff() > 0.0)) return {};
+  const auto normal = dense::symmetric_factors(whitened.topLeftCorner(p, p));
+  if (!normal) return {};
   const Eigen::VectorXd product = whitened.topRightCorner(p, 1);
-  const double squares = whitened(p, p) - product.dot(normal.solve(product));
+  const double squares = whitened(p, p) - product.dot(normal->inverse * product);
   if (!(squares > 0.0)) return {};
-  return {degrees * std::log(squares / degrees) + normal.vectorD().array().log().sum() -
+  return {degrees * std::log(squares / degrees) + normal->pivots.array().log().sum() -
               std::log(1.0 - rho * rho),
           squares / degrees};
 }
@@ -139,12 +139,14 @@ Judged judge(const Rows& rows, const Eigen::VectorXd& covariance) {
     logs += std::log(left);
     white.row(k) = (rows.row(k) - weights.transpose() * rows.topRows(k)) / std::sqrt(left);
   }
-  const Matrix normal = white.transpose() * white;
-  const Eigen::LDLT<Matrix> split(normal.topLeftCorner(p, p));
+  const Matrix normal = dense::inner_product(white, white);
+  const auto split = dense::symmetric_factors(normal.topLeftCorner(p, p));
+  if (!split) return {};
   const Eigen::VectorXd product = normal.topRightCorner(p, 1);
   const auto degrees = static_cast<double>(n - p);
-  const double variance = std::max(normal(p, p) - product.dot(split.solve(product)), 0.0) / degrees;
-  return {degrees * std::log(variance) + logs + split.vectorD().array().log().sum(), variance};
+  const double variance =
+      std::max(normal(p, p) - product.dot(split->inverse * product), 0.0) / degrees;
+  return {degrees * std::log(variance) + logs + split->pivots.array().log().sum(), variance};
 }
 
 // The rows in blocks of as many neighbours each, give or take one: means, and sums of the first p
@@ -162,7 +164,8 @@ struct Blocks {
       means.row(b) = rows.middleRows(from, to - from).colwise().mean();
       sums.row(b) = means.row(b).head(sums.cols()) * static_cast<double>(to - from);
     }
-    const Matrix variance = inverse * sums.transpose() * sums * inverse;
+    const Matrix variance =
+        dense::product(dense::product(inverse, dense::inner_product(sums, sums)), inverse);
     kept = (variance.diagonal().array() / inverse.diagonal().array()).minCoeff() *
            static_cast<double>(count) / static_cast<double>(rows.rows());
   }
@@ -199,7 +202,7 @@ std::vector<Process> processes(const Blocks& blocks, const Matrix& inverse, Eige
   std::vector<Matrix> lagged;
   for (Eigen::Index lag = 0; lag < n; ++lag) {
     const Matrix product =
-        blocks.sums.topRows(n - lag).transpose() * blocks.sums.bottomRows(n - lag);
+        dense::inner_product(blocks.sums.topRows(n - lag), blocks.sums.bottomRows(n - lag));
     lagged.push_back(lag == 0 ? product : Matrix(product + product.transpose()));
   }
   std::vector<Process> all;
@@ -216,7 +219,8 @@ std::vector<Process> processes(const Blocks& blocks, const Matrix& inverse, Eige
         Matrix product = Matrix::Zero(inverse.rows(), inverse.cols());
         for (Eigen::Index lag = 0; lag < n; ++lag)
           product += covariance[lag] * lagged[as_index(lag)];
-        one.covariance = judged.variance / blocks.kept * (inverse * product * inverse);
+        one.covariance = judged.variance / blocks.kept *
+                         dense::product(dense::product(inverse, product), inverse);
       }
   double most = -std::numeric_limits<double>::infinity();
   for (const Process& one : all) most = std::max(most, one.weight);
@@ -268,8 +272,8 @@ std::vector<double> quantised_covariance(std::span<const double> values,
     const double steps = (levels[i] - levels[i - 1]) / step;
     if (std::abs(steps - std::round(steps)) > 0.05 * std::max(1.0, steps)) return {};
   }
-  const Eigen::Map<const Rows> normal(inverse.data(), static_cast<Eigen::Index>(p),
-                                      static_cast<Eigen::Index>(p));
+  const Matrix normal = Eigen::Map<const Matrix>(inverse.data(), static_cast<Eigen::Index>(p),
+                                                 static_cast<Eigen::Index>(p));  // symmetric
   Matrix sum = Matrix::Zero(normal.rows(), normal.cols());
   for (std::size_t i = 0; i < n;) {
     Eigen::VectorXd run = Eigen::VectorXd::Zero(normal.rows());
@@ -278,7 +282,8 @@ std::vector<double> quantised_covariance(std::span<const double> values,
       for (std::size_t k = 0; k < p; ++k) run[static_cast<Eigen::Index>(k)] += jacobian[i * p + k];
     sum += run * run.transpose();
   }
-  const Rows covariance = step * step / 12.0 * normal * sum * normal;
+  const Matrix covariance =
+      step * step / 12.0 * dense::product(dense::product(normal, sum), normal);
   return {covariance.data(), covariance.data() + covariance.size()};
 }
 
@@ -308,9 +313,9 @@ std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
   const Likelihood white = likelihood(products, 0.0, degrees);
   if (!(white.minus_two_log - at.minus_two_log > 2.71)) return std::nullopt;
 
-  const Eigen::LDLT<Matrix> normal(products.all.topLeftCorner(p, p));
-  if (normal.info() != Eigen::Success || !(normal.vectorD().minCoeff() > 0.0)) return std::nullopt;
-  const Matrix inverse = normal.solve(Matrix::Identity(p, p));
+  const auto normal = dense::symmetric_factors(products.all.topLeftCorner(p, p));
+  if (!normal) return std::nullopt;
+  const Matrix& inverse = normal->inverse;
   const Blocks blocks = blocks_of(rows, inverse);
   const std::vector<Process> all = processes(blocks, inverse, n);
   if (all.empty()) return std::nullopt;

@@ -1,12 +1,12 @@
 // Variable projection on a grid: linear least squares for each value of the shape parameter.
 #include "fit/initial.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "base/dense.h"
 #include "base/index.h"
 
 namespace palpate::fit {
@@ -80,7 +80,7 @@ std::optional<std::vector<double>> initial_guess(std::span<const double> x,
       linear[0] = along / matrix.col(0).squaredNorm();
       sum = target.squaredNorm() - along * linear[0];
     } else {
-      linear = matrix.colPivHouseholderQr().solve(target);
+      linear = dense::least_squares(matrix, target);
       sum = (matrix.lazyProduct(linear) - target).squaredNorm();
     }
     if (!(sum < least) || !linear.allFinite()) continue;

@@ -1,9 +1,10 @@
 // The rows are first reduced to as many as there are columns by a QR decomposition.
 #include "fit/nnls.h"
 
-#include <Eigen/Dense>
 #include <limits>
 #include <vector>
+
+#include "base/dense.h"
 
 namespace palpate::fit {
 namespace {
@@ -17,7 +18,7 @@ Eigen::VectorXd over_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
   Eigen::MatrixXd some(a.rows(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k)
     some.col(static_cast<Eigen::Index>(k)) = a.col(columns[k]);
-  const Eigen::VectorXd solved = some.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd solved = dense::least_squares(some, b);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(a.cols());
   for (std::size_t k = 0; k < columns.size(); ++k)
     all[columns[k]] = solved[static_cast<Eigen::Index>(k)];
@@ -29,9 +30,8 @@ Eigen::VectorXd over_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
 std::optional<Eigen::VectorXd> nonnegative_least_squares(const Eigen::MatrixXd& given,
                                                          const Eigen::VectorXd& target) {
   const Eigen::Index n = given.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(given);
-  const Eigen::MatrixXd a = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd b = (qr.householderQ().adjoint() * target).head(n);
+  const auto [q, a] = dense::qr(given);
+  const Eigen::VectorXd b = q.transpose() * target;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   std::vector<char> free(static_cast<std::size_t>(n), 0);
   const double small = 1e-13 * a.colwise().norm().maxCoeff() * target.norm();

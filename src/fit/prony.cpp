@@ -1,13 +1,13 @@
 // Searches over the logarithms of the times (they stay positive), from the best times of a grid.
 #include "fit/prony.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
@@ -187,7 +187,7 @@ std::vector<double> start_of(const Points& points, const Basis& basis, int terms
     for (std::size_t k = 0; k < some.size(); ++k)
       matrix.col(lead + static_cast<Eigen::Index>(k)) =
           grid.columns.col(lead + static_cast<Eigen::Index>(some[k]));
-    const Eigen::VectorXd heights = matrix.colPivHouseholderQr().solve(grid.target);
+    const Eigen::VectorXd heights = dense::least_squares(matrix, grid.target);
     const double squares = (matrix * heights - grid.target).squaredNorm();
     if (!heights.allFinite() || !(squares < least)) continue;
     least = squares;

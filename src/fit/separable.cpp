@@ -1,12 +1,12 @@
 // Variable projection for the start, then all parameters by Levenberg-Marquardt.
 #include "fit/separable.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "base/dense.h"
 #include "base/index.h"
 
 namespace palpate::fit {
@@ -59,7 +59,7 @@ std::optional<Start> start_at(std::span<const double> y, Columns& columns,
                               const std::vector<double>& shapes) {
   if (!columns.set(shapes) || !columns.at().allFinite()) return std::nullopt;
   const Eigen::Map<const Eigen::VectorXd> target(y.data(), columns.at().rows());
-  const Eigen::VectorXd factors = columns.at().colPivHouseholderQr().solve(target);
+  const Eigen::VectorXd factors = dense::least_squares(columns.at(), target);
   if (!factors.allFinite()) return std::nullopt;
   return Start{
       (columns.at() * factors - target).squaredNorm(), shapes, {factors.begin(), factors.end()}};
@@ -78,9 +78,7 @@ std::optional<Start> projected(std::span<const double> y, const Separable& curve
     const Eigen::Map<const Eigen::VectorXd> factors(now->factors.data(), columns.at().cols());
     Eigen::Map<Eigen::VectorXd>(values.data(), columns.at().rows()) = columns.at() * factors;
     if (slopes.empty()) return true;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> split(columns.at());
-    const Eigen::MatrixXd basis =
-        split.householderQ() * Eigen::MatrixXd::Identity(columns.at().rows(), columns.at().cols());
+    const Eigen::MatrixXd basis = dense::qr(columns.at()).q;
     Eigen::VectorXd slope;
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       if (!columns.slope(shapes, k, factors, slope)) return false;

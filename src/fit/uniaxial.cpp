@@ -1,7 +1,6 @@
 // The stress is proportional to E; Ogden's exponent is searched on a grid first.
 #include "fit/uniaxial.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -9,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
@@ -403,7 +403,7 @@ class UniaxialFit {
       powers.row(static_cast<Eigen::Index>(i)) << 1.0, from_end, from_end * from_end;
     }
     const Eigen::Map<const Eigen::VectorXd> stress(stress_.data(), powers.rows());
-    return powers.colPivHouseholderQr().solve(stress)[0];
+    return dense::least_squares(powers, stress)[0];
   }
 
   // A sum of terms c_k phi_k(L, alpha_k). Parameters of the search: c_k, then alpha_k.

@@ -1,10 +1,10 @@
 // Errors from the singular values of the jacobian, and the combination of tied unknowns.
 #include "identify/box_errors.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "base/text.h"
 
 namespace palpate::identify {
@@ -17,11 +17,10 @@ constexpr double least_sigma = 1e-5;
 constexpr double least_slope = 1e-6;  // of the steepest direction
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Svd = Eigen::JacobiSVD<Eigen::MatrixXd>;
-Svd svd_of(std::span<const double> jacobian, std::size_t unknowns) {
+dense::Svd svd_of(std::span<const double> jacobian, std::size_t unknowns) {
   const auto rows = static_cast<Eigen::Index>(jacobian.size() / unknowns);
   const Eigen::Map<const Matrix> slopes(jacobian.data(), rows, static_cast<Eigen::Index>(unknowns));
-  return Svd(slopes, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return dense::svd(slopes);
 }
 
 bool has(const std::string& key, const char* ending) { return key.ends_with(ending); }
@@ -38,17 +37,17 @@ std::string with_exponent(const std::string& text, double exponent) {
 }  // namespace
 
 std::vector<double> determined_directions(std::span<const double> jacobian, std::size_t unknowns) {
-  const Svd svd = svd_of(jacobian, unknowns);
-  const Eigen::VectorXd& sizes = svd.singularValues();
+  const dense::Svd svd = svd_of(jacobian, unknowns);
+  const Eigen::VectorXd& sizes = svd.values;
   const auto count = (sizes.array() > least_slope * sizes[0]).count();
-  const Matrix directions = svd.matrixU().leftCols(count);
+  const Matrix directions = svd.u.leftCols(count);
   return {directions.data(), directions.data() + directions.size()};
 }
 
 BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
                      std::span<const double> noise, double t, int weakest) {
   const auto n = static_cast<Eigen::Index>(unknowns);
-  const Svd svd = svd_of(jacobian, unknowns);
+  const dense::Svd svd = svd_of(jacobian, unknowns);
   const auto count = static_cast<Eigen::Index>(std::lround(std::sqrt(noise.size())));
   const Eigen::Map<const Matrix> along(noise.data(), count, count);
   BoxErrors errors;
@@ -56,17 +55,18 @@ BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
   Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n, count);  // of u to the directions
   std::vector<Eigen::VectorXd> loose;
   for (Eigen::Index k = 0; k < n; ++k) {
-    const double slope = svd.singularValues()[k];
+    const double slope = svd.values[k];
     if (k >= n - weakest || k >= count ||
         t * std::max(std::sqrt(along(k, k)), least_sigma) > loose_half_width * slope) {
-      loose.emplace_back(svd.matrixV().col(k));
+      loose.emplace_back(svd.v.col(k));
       continue;
     }
     ++errors.determined;
-    response.col(k) = svd.matrixV().col(k) / slope;
+    response.col(k) = svd.v.col(k) / slope;
   }
-  const Matrix covariance = response * along * response.transpose();
-  const Matrix of_one = response * response.transpose();
+  const Eigen::MatrixXd back = response.transpose();
+  const Eigen::MatrixXd covariance = dense::product(dense::product(response, along), back);
+  const Eigen::MatrixXd of_one = dense::product(response, back);
   for (const Eigen::VectorXd& direction : loose) {
     errors.loose.emplace_back(direction.data(), direction.data() + n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -94,8 +94,8 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
     for (std::size_t i = 0; i < m; ++i)
       loose(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
           errors.loose[k][found.of[i]];
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(loose, Eigen::ComputeFullV);
-  const Eigen::VectorXd kept = svd.matrixV().col(static_cast<Eigen::Index>(m) - 1);
+  const dense::Svd svd = dense::svd(loose);
+  const Eigen::VectorXd kept = svd.v.col(static_cast<Eigen::Index>(m) - 1);
 
   std::vector<double> gradient(unknowns.size(), 0.0);  // d (combination or its logarithm) / du
   const auto error = [&] {

@@ -1,16 +1,14 @@
 // Computes the eigenmodes once; a step then multiplies every mode by its exact propagator.
 #include "integrate/modal.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 #include <random>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/child_process.h"
+#include "base/dense.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "integrate/wide_loops.h"
@@ -66,10 +64,10 @@ Columns orthonormalise(const Eigen::Ref<const Columns>& basis, Columns& block) {
   for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
     const Columns along = basis.transpose() * block;
     block.noalias() -= basis * along;
-    const Eigen::HouseholderQR<Columns> factors(block);
+    const dense::Qr factors = dense::qr(block);
     coordinates.topRows(basis.cols()) += along * left;
-    left = factors.matrixQR().topRows(width).triangularView<Eigen::Upper>() * left;
-    block = factors.householderQ() * Columns::Identity(block.rows(), width);
+    left = dense::product(factors.r, left);
+    block = factors.q;
   }
   coordinates.bottomRows(width) = left;
   return coordinates;
@@ -82,10 +80,10 @@ void decompose(const Eigen::MatrixXd& matrix, KnownModes& into) {
   const std::size_t squares = size * sizeof(double);  // bytes
   const std::size_t bytes = squares * (size + 1);
   const auto work = [&] {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(matrix);
+    const dense::SymmetricModes found = dense::symmetric_modes(matrix);
     std::string answer(bytes, '\0');
-    std::memcpy(answer.data(), found.eigenvalues().data(), squares);
-    std::memcpy(answer.data() + squares, found.eigenvectors().data(), bytes - squares);
+    std::memcpy(answer.data(), found.values.data(), squares);
+    std::memcpy(answer.data() + squares, found.vectors.data(), bytes - squares);
     return answer;
   };
   constexpr double unlimited = 1e7;  // s
@@ -194,9 +192,9 @@ void Modal::find_lowest(Eigen::Index count) {
     image.bottomLeftCorner(width, known) = coordinates.topRows(known).transpose();
     if (more < next_look) continue;
     next_look = more + more / 8;
-    const Eigen::SelfAdjointEigenSolver<Columns> ritz(image);
-    const Columns vectors = ritz.eigenvectors().rightCols(count).rowwise().reverse();
-    const Vector values = ritz.eigenvalues().tail(count).reverse();
+    const dense::SymmetricModes ritz = dense::symmetric_modes(image);
+    const Columns vectors = ritz.vectors.rightCols(count).rowwise().reverse();
+    const Vector values = ritz.values.tail(count).reverse();
     const Vector rest =
         (coordinates.bottomRows(width) * vectors.bottomRows(width)).colwise().norm();
     if ((rest.array() > residual * values.array()).any()) continue;
@@ -254,7 +252,7 @@ void Modal::prepare(double time_step) {
     system(1, size) = 1.0 / omega;
     system(size, size + 1) = 1.0 / time_step;
     const Eigen::MatrixXd exponent = system * time_step;
-    const Eigen::MatrixXd whole = exponent.exp();
+    const Eigen::MatrixXd whole = dense::exponential(exponent);
     for (Eigen::Index c = 0; c < size; ++c) {
       const auto to = as_index(c);
       for (Eigen::Index d = 0; d < size; ++d) propagators_.keep[to][as_index(d)][i] = whole(c, d);

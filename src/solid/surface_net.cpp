@@ -126,7 +126,8 @@ void SurfaceNet::cut(const Plane& plane) {
     int from = -1;
   };
   std::map<int, Move> moves;
-  for (const auto& [edge, around] : at_) {
+  for (const auto& entry : at_) {
+    const Edge& edge = entry.first;
     const double a = plane.beyond(vertices_[as_index(edge[0])]);
     const double b = plane.beyond(vertices_[as_index(edge[1])]);
     if (!(a * b < 0.0)) continue;

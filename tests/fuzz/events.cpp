@@ -17,9 +17,8 @@ bool has(std::string_view text, std::string_view part) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate::device;
-  using palpate::fuzz::require;
+void palpate::fuzz::events(const std::uint8_t* data, std::size_t size) {
+  using namespace device;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const Event event = inverse3::parse_event(bytes, "049D");
   require(event_text(event) != "unknown");
@@ -38,5 +37,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (brackets <= 32 && !has(bytes, {"\0", 1}) &&
       nlohmann::json::parse(bytes, nullptr, false).is_object())
     require(event != Event::garbage);
-  return 0;
 }

@@ -61,4 +61,14 @@ inline std::string file(const std::string& name, std::string_view content) {
   return path;
 }
 
+// What each target does with any bytes. A crash is the failure.
+using Run = void(const std::uint8_t* data, std::size_t size);
+Run emulator, events, inverse3, journal, lines, mark10, measured, nodes, plan, recording, rows,
+    scenario, settings, table, tissues, tolerances, websocket;
+void cells(const char* format, const std::uint8_t* data, std::size_t size);
+void surface(const char* format, const std::uint8_t* data, std::size_t size);
+
+// The target of that name, or none.
+[[nodiscard]] Run* target(std::string_view name);
+
 }  // namespace palpate::fuzz

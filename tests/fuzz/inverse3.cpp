@@ -6,9 +6,8 @@
 #include "device/inverse3_protocol.h"
 #include "fuzzing.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate::device;
-  using palpate::fuzz::require;
+void palpate::fuzz::inverse3(const std::uint8_t* data, std::size_t size) {
+  using namespace device;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const auto reply = inverse3::parse_reply(bytes, "049D");
   if (reply.position) {
@@ -34,5 +33,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(message.text().ends_with("}}}}]}"));
   require(message.text().find("nan") == std::string_view::npos &&
           message.text().find("inf") == std::string_view::npos);
-  return 0;
 }

@@ -4,19 +4,17 @@
 #include "fuzzing.h"
 #include "record/journal.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate;
-  const std::string_view bytes = fuzz::text_of(data, size);
+void palpate::fuzz::journal(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes = text_of(data, size);
   const auto lines = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\n'));
   std::size_t seen = 0;
-  const auto file = record::read_journal(fuzz::file("part.rows", bytes), "a plan",
+  const auto read = record::read_journal(file("part.rows", bytes), "a plan",
                                          [&](const record::Table& row, const FileLine& line) {
                                            ++seen;
-                                           fuzz::require(row.rows.size() == 1 && line.whole);
+                                           require(row.rows.size() == 1 && line.whole);
                                            return true;
                                          });
-  fuzz::require(file.rows == seen && file.rows + file.corrupt <= lines);
-  fuzz::require(file.rows == 0 || file.whose == record::JournalFile::Whose::ours);
-  for (const std::string& warning : file.warnings()) fuzz::require(!warning.empty());
-  return 0;
+  require(read.rows == seen && read.rows + read.corrupt <= lines);
+  require(read.rows == 0 || read.whose == record::JournalFile::Whose::ours);
+  for (const std::string& warning : read.warnings()) require(!warning.empty());
 }

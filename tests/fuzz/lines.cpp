@@ -3,26 +3,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "device/line_buffer.h"
 #include "device/line_pattern.h"
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
+#include "fuzzing.h"
 
 // The bytes before the first zero byte are a pattern; the rest arrives in lines. Without a zero
 // byte all of it is lines, for the patterns of the examples.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate::device;
+void palpate::fuzz::lines(const std::uint8_t* data, std::size_t size) {
+  using namespace device;
   static const LinePattern examples[] = {
       LinePattern("{time},{force},{travel}"), LinePattern("{force} {force_unit}"),
       LinePattern("{any},{force} {force_unit}"),
@@ -52,12 +44,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   if (zero == std::string_view::npos) {
     for (const LinePattern& pattern : examples) read(pattern, bytes);
-    return 0;
+    return;
   }
   try {
     read(LinePattern(bytes.substr(0, zero)), bytes.substr(zero + 1));
   } catch (const std::invalid_argument& refused) {
     require(std::string_view(refused.what()).starts_with("wants "));
   }
-  return 0;
 }

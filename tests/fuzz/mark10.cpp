@@ -10,10 +10,9 @@
 #include "fuzzing.h"
 
 // The first byte says in what portions the rest arrives.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate::device;
-  using palpate::fuzz::require;
-  if (size == 0) return 0;
+void palpate::fuzz::mark10(const std::uint8_t* data, std::size_t size) {
+  using namespace device;
+  if (size == 0) return;
   const std::size_t portion = 1 + data[0];
   std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   LineBuffer lines;
@@ -44,5 +43,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       static_cast<void>(mark10::parse_settings(*line));
     }
   }
-  return 0;
 }

@@ -3,11 +3,10 @@
 #include "fuzzing.h"
 #include "measured/table.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate;
-  if (size == 0) return 0;
+void palpate::fuzz::measured(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
   const auto has = [&](int bit) { return (data[0] >> bit & 1) != 0; };
-  const std::string_view bytes = fuzz::text_of(data + 1, size - 1);
+  const std::string_view bytes = text_of(data + 1, size - 1);
   measured::DataLayout layout;
   if (has(0)) layout.x = "1";
   if (has(0)) layout.y = "2";
@@ -19,16 +18,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (has(5)) layout.rows = "2..5";
   if (has(6)) layout.table = 1;
   if (has(7)) layout.skip = 1;
-  fuzz::reads([&] {
+  reads([&] {
     const measured::RawTable table = measured::raw_table(bytes, "fuzz.csv", layout);
-    fuzz::require(!table.rows.empty());
-    for (const auto& row : table.rows) fuzz::require(row.fields.size() == table.width());
+    require(!table.rows.empty());
+    for (const auto& row : table.rows) require(row.fields.size() == table.width());
   });
-  fuzz::reads([&] {
+  reads([&] {
     const auto curve = measured::parse_measured(bytes, "fuzz.csv", layout);
     const std::size_t points = curve.x.size();
-    fuzz::require(points > 0 && curve.y.size() == points && curve.lines.size() == points);
-    fuzz::require(curve.x_written.size() == points && curve.y_written.size() == points);
+    require(points > 0 && curve.y.size() == points && curve.lines.size() == points);
+    require(curve.x_written.size() == points && curve.y_written.size() == points);
   });
-  return 0;
 }

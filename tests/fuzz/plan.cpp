@@ -2,14 +2,10 @@
 #include "fuzzing.h"
 #include "sweep/plan_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate;
+void palpate::fuzz::plan(const std::uint8_t* data, std::size_t size) {
   sweep::PlanFile plan;
-  if (!fuzz::reads([&] {
-        plan = sweep::read_plan_file(std::string(fuzz::text_of(data, size)), "plan.json");
-      }))
-    return 0;
+  if (!reads([&] { plan = sweep::read_plan_file(std::string(text_of(data, size)), "plan.json"); }))
+    return;
   const std::string text = sweep::plan_text(plan);
-  fuzz::require(sweep::plan_text(sweep::read_plan_file(text, "plan.json")) == text);
-  return 0;
+  require(sweep::plan_text(sweep::read_plan_file(text, "plan.json")) == text);
 }

@@ -1,9 +1,11 @@
 // Runs kept inputs, and variations of them, through a fuzz target without a fuzzer's library:
-//   PROGRAM INPUTS.hex VARIATIONS [WORDS.dict]
-//                                       each input and so many variations of it
-//   PROGRAM INPUTS.hex --unpack FOLDER  one file an input, as a fuzzer wants them
-//   PROGRAM INPUTS.hex --pack FOLDER    adds the folder's files that are not in it, the shortest
-//                                       first
+//   palpate-fuzz TARGET INPUTS.hex VARIATIONS [WORDS.dict]
+//                                              each input and so many variations of it
+//   palpate-fuzz TARGET INPUTS.hex --unpack FOLDER
+//                                              one file an input, as a fuzzer wants them
+//   palpate-fuzz TARGET INPUTS.hex --pack FOLDER
+//                                              adds the folder's files that are not in it, the
+//                                              shortest first
 // A crash is the failure.
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +18,7 @@
 #include <string>
 #include <vector>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+#include "fuzzing.h"
 
 namespace {
 
@@ -93,34 +95,34 @@ void pack(const char* path, const std::vector<std::string>& kept, const char* fo
   for (const std::string& input : found) stream << hexadecimal(input) << "\n";
 }
 
-void run(const std::string& text) {
-  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string what = argc > 2 ? argv[2] : "";
-  const std::vector<std::string> inputs =
-      argc > 2 ? read_inputs(argv[1]) : std::vector<std::string>();
-  if (inputs.empty()) {
-    std::fprintf(stderr,
-                 "usage: %s INPUTS.hex VARIATIONS [WORDS.dict]|--unpack FOLDER|--pack FOLDER\n",
-                 argv[0]);
+  palpate::fuzz::Run* const target = argc > 3 ? palpate::fuzz::target(argv[1]) : nullptr;
+  const auto inputs = argc > 3 ? read_inputs(argv[2]) : std::vector<std::string>();
+  if (target == nullptr || inputs.empty()) {
+    std::fprintf(
+        stderr,
+        "usage: %s TARGET INPUTS.hex VARIATIONS [WORDS.dict]|--unpack FOLDER|--pack FOLDER\n",
+        argv[0]);
     return 2;
   }
-  if (what == "--pack" && argc > 3) {
-    pack(argv[1], inputs, argv[3]);
+  const std::string what = argv[3];
+  const auto run = [&](const std::string& text) {
+    target(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  };
+  if (what == "--pack" && argc > 4) {
+    pack(argv[2], inputs, argv[4]);
     return 0;
   }
-  if (what == "--unpack" && argc > 3) {
-    std::filesystem::create_directories(argv[3]);
+  if (what == "--unpack" && argc > 4) {
+    std::filesystem::create_directories(argv[4]);
     for (std::size_t i = 0; i < inputs.size(); ++i)
-      std::ofstream(std::filesystem::path(argv[3]) / std::to_string(i), std::ios::binary)
+      std::ofstream(std::filesystem::path(argv[4]) / std::to_string(i), std::ios::binary)
           << inputs[i];
     return 0;
   }
-  const auto words = argc > 3 ? read_words(argv[3]) : std::vector<std::string>();
+  const auto words = argc > 4 ? read_words(argv[4]) : std::vector<std::string>();
   std::mt19937 random(1);
   long runs = 0;
   for (const std::string& input : inputs) {

@@ -4,20 +4,18 @@
 #include "record/journal.h"
 #include "sweep/row.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate;
+void palpate::fuzz::rows(const std::uint8_t* data, std::size_t size) {
   record::Table table;
-  if (!fuzz::reads([&] { table = record::parse_csv(fuzz::text_of(data, size), "t.csv"); }) ||
+  if (!reads([&] { table = record::parse_csv(text_of(data, size), "t.csv"); }) ||
       table.rows.size() != 1)
-    return 0;
+    return;
   std::string line = record::sealed_line(table, "a plan");
   line.pop_back();
   const auto read = record::read_line(line, "a plan");
-  fuzz::require(read.has_value() && !record::read_line(line, "another plan"));
+  require(read.has_value() && !record::read_line(line, "another plan"));
   const auto row = sweep::row_of(*read);
-  if (!row) return 0;
-  fuzz::require(sweep::head_of(*read)->id == row->id && row->attempt > 0);
+  if (!row) return;
+  require(sweep::head_of(*read)->id == row->id && row->attempt > 0);
   const auto again = sweep::row_of(sweep::journal_row(*row));
-  fuzz::require(again && again->values.size() == row->values.size());
-  return 0;
+  require(again && again->values.size() == row->values.size());
 }

@@ -6,16 +6,13 @@
 #include "fuzzing.h"
 #include "scenario/family.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate;
+void palpate::fuzz::settings(const std::uint8_t* data, std::size_t size) {
   const std::string scenario =
       "[tissue]\nyoung_modulus = \"20 kPa\"\n[finger]\nmaterial = \"rigid\"\nradius = \"5 mm\"\n"
       "[[step]]\nkind = \"indent\"\nto = \"0.4 mm\"\n";
-  const std::vector<std::string> settings = split(std::string(fuzz::text_of(data, size)), '\n');
+  const std::vector<std::string> settings = split(std::string(text_of(data, size)), '\n');
   scenario::Family family;
-  if (!fuzz::reads([&] { family = scenario::parse(scenario, "/nowhere/fuzz.toml", settings); }))
-    return 0;
+  if (!reads([&] { family = scenario::parse(scenario, "/nowhere/fuzz.toml", settings); })) return;
   const std::string echo = scenario::echo(family);
-  fuzz::require(fuzz::reads([&] { (void)scenario::parse(echo, "/nowhere/fuzz.toml", {}); }));
-  return 0;
+  require(reads([&] { (void)scenario::parse(echo, "/nowhere/fuzz.toml", {}); }));
 }

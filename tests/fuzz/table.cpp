@@ -3,13 +3,10 @@
 #include "fuzzing.h"
 #include "record/csv.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate;
+void palpate::fuzz::table(const std::uint8_t* data, std::size_t size) {
   record::Table table;
-  if (!fuzz::reads([&] { table = record::parse_csv(fuzz::text_of(data, size), "t.csv"); }))
-    return 0;
-  for (const auto& row : table.rows) fuzz::require(row.size() == table.columns.size());
+  if (!reads([&] { table = record::parse_csv(text_of(data, size), "t.csv"); })) return;
+  for (const auto& row : table.rows) require(row.size() == table.columns.size());
   const std::string text = record::csv_text(table);
-  fuzz::require(record::csv_text(record::parse_csv(text, "t.csv")) == text);
-  return 0;
+  require(record::csv_text(record::parse_csv(text, "t.csv")) == text);
 }

@@ -47,13 +47,12 @@ class Server {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace palpate;
-  if (size == 0) return 0;
+void palpate::fuzz::websocket(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return;
   static Server server;
   const int way = data[0] % 3;
   std::thread serving(
-      [&] { server.serve(fuzz::text_of(data + 1, size - 1), /*shakes_hands=*/way == 0); });
+      [&] { server.serve(text_of(data + 1, size - 1), /*shakes_hands=*/way == 0); });
   const device::Host host{"127.0.0.1", {"127.0.0.1"}};
   const double until = device::wire_time() + 1.0;  // s, far more than the loopback takes
   try {
@@ -63,14 +62,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       device::WebSocket socket(host, server.port(), until);
       for (std::size_t message = 0; message <= size; ++message) {
         const auto received = socket.receive(until);
-        fuzz::require(received.text.size() < 65536);
+        require(received.text.size() < 65536);
         if (received.outcome == device::WebSocket::Outcome::closed) break;
       }
-      fuzz::require(socket.closed() && !socket.why_closed().empty());
+      require(socket.closed() && !socket.why_closed().empty());
     }
   } catch (const LinkError& error) {
-    fuzz::require(!std::string_view(error.what()).empty());
+    require(!std::string_view(error.what()).empty());
   }
   serving.join();
-  return 0;
 }
