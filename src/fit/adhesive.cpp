@@ -119,7 +119,7 @@ class AdhesiveFit {
       }
       return true;
     };
-    const Minimum minimum = minimise(curve_.force, at, start, 400);
+    const Minimum minimum = minimise(curve_.force, at, start, {.max_iterations = 400});
     const double share = 1.0 - test_.poisson_ratio * test_.poisson_ratio;
     std::vector<double> scale{unit::kPa.from_si(guess[0] * share), mJ_per_m2.from_si(guess[1]),
                               unit::mm.from_si(range), scale_, scale_ / unit::mm.from_si(range)};

@@ -16,8 +16,10 @@
 
 namespace palpate::fit {
 
-// Without InitGoogleLogging a failing fit writes to stderr; with it, into files below /tmp unless
-// both flags are set before.
+namespace {
+
+// Ceres logs through glog even if its options say otherwise. Without InitGoogleLogging a failing
+// fit writes to stderr; with it, into files below /tmp unless both flags are set before.
 void silence_glog() {
   static const bool done = [] {
     if (google::IsGoogleLoggingInitialized()) return true;
@@ -28,8 +30,6 @@ void silence_glog() {
   }();
   static_cast<void>(done);
 }
-
-namespace {
 
 // All residuals as functions of the unknowns u_i = p_i / scale_i, which are of order one.
 class CurveCost final : public ceres::CostFunction {
@@ -105,25 +105,23 @@ std::vector<double> inverse_normal(std::span<const double> jacobian, std::size_t
   return {inverse.data(), inverse.data() + inverse.size()};
 }
 
-ceres::Solver::Options solver_options(std::size_t points, int max_iterations) {
+ceres::Solver::Options solver_options(std::size_t points, const Descent& search) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
-  options.max_num_iterations = max_iterations;
+  options.max_num_iterations = search.max_iterations;
   options.logging_type = ceres::SILENT;
   options.minimizer_progress_to_stdout = false;
-  // Unknowns, residuals and slopes are of order one, so that a gradient of 1e-14 per point leaves
-  // an error of about 1e-14. The cost stops changing (to 1e-16) long before that.
-  options.gradient_tolerance = 1e-14 * static_cast<double>(points);
-  options.parameter_tolerance = 1e-14;
-  options.function_tolerance = 0.0;
+  options.gradient_tolerance = search.gradient_tolerance * static_cast<double>(points);
+  options.parameter_tolerance = search.parameter_tolerance;
+  options.function_tolerance = search.function_tolerance;
   return options;
 }
 
 }  // namespace
 
 Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<const double> start,
-                 int max_iterations) {
+                 const Descent& search) {
   silence_glog();
   std::vector<double> scale;
   std::vector<double> unknowns;
@@ -133,8 +131,14 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
   }
   ceres::Problem problem;
   problem.AddResidualBlock(new CurveCost(y, curve, scale), nullptr, unknowns.data());
+  for (std::size_t k = 0; k < scale.size(); ++k) {
+    if (std::isfinite(search.low))
+      problem.SetParameterLowerBound(unknowns.data(), static_cast<int>(k), search.low / scale[k]);
+    if (std::isfinite(search.high))
+      problem.SetParameterUpperBound(unknowns.data(), static_cast<int>(k), search.high / scale[k]);
+  }
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(y.size(), max_iterations), &problem, &summary);
+  ceres::Solve(solver_options(y.size(), search), &problem, &summary);
 
   Minimum minimum;
   minimum.iterations = static_cast<int>(summary.iterations.size());
@@ -145,6 +149,7 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
   minimum.squares = 2.0 * summary.final_cost;
   for (std::size_t i = 0; i < scale.size(); ++i)
     minimum.parameters.push_back(unknowns[i] * scale[i]);
+  if (!search.errors) return minimum;
   minimum.residuals.resize(y.size());
   minimum.jacobian.resize(y.size() * scale.size());
   (void)curve(minimum.parameters, minimum.residuals, minimum.jacobian);
@@ -161,7 +166,7 @@ Minimum minimise(std::span<const double> x, std::span<const double> y, Model mod
     model_curve(x, model, parameters, values, slopes);
     return true;
   };
-  return minimise(y, curve, start, max_iterations);
+  return minimise(y, curve, start, {.max_iterations = max_iterations});
 }
 
 std::string ceres_version() { return CERES_VERSION_STRING; }

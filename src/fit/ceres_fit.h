@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,9 +10,6 @@
 #include "fit/model.h"
 
 namespace palpate::fit {
-
-// Ceres logs through glog even if its options say otherwise; this call silences glog.
-void silence_glog();
 
 struct Minimum {
   enum class Status { found, out_of_iterations, failed };
@@ -32,10 +30,24 @@ struct Minimum {
 using CurveAt = std::function<bool(std::span<const double> parameters, std::span<double> values,
                                    std::span<double> slopes)>;
 
+// How far and how exactly to search. Each parameter is in units of its start's size.
+struct Descent {
+  int max_iterations = 200;
+  double low =
+      -std::numeric_limits<double>::infinity();  // bounds of every parameter, in its own unit
+  double high = std::numeric_limits<double>::infinity();
+  // Unknowns, residuals and slopes are of order one, so that a gradient of 1e-14 per point leaves
+  // an error of about 1e-14. The cost stops changing (to 1e-16) long before that.
+  double gradient_tolerance = 1e-14;  // per point
+  double parameter_tolerance = 1e-14;
+  double function_tolerance = 0.0;
+  bool errors = true;  // false: without residuals, jacobian and inverse_normal at the minimum
+};
+
 // Minimises sum (value_i - y_i)^2 from `start` by Levenberg-Marquardt. The stopping tolerances are
 // absolute: scale y to order one. Writes nothing to the terminal and no log file.
 [[nodiscard]] Minimum minimise(std::span<const double> y, const CurveAt& curve,
-                               std::span<const double> start, int max_iterations);
+                               std::span<const double> start, const Descent& search);
 
 // The same for the curve of `model` over x, with the derivatives of slopes().
 [[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,

@@ -323,7 +323,7 @@ class ContactFit {
       all.resize(count);
     };
     fitted(unknowns);
-    const Minimum minimum = minimise(rows_.force, curve, unknowns, 200);
+    const Minimum minimum = minimise(rows_.force, curve, unknowns, {});
 
     // E = E* (1 - nu^2) for a rigid tip            Chen 2007 eq. (2); docs/theory.md [modulus]
     const double young = guess.factor * scale_ * (1.0 - test_.poisson_ratio * test_.poisson_ratio);

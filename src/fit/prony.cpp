@@ -324,7 +324,7 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
     }
     return true;
   };
-  Minimum minimum = minimise(points.y, curve, start, options.max_iterations);
+  Minimum minimum = minimise(points.y, curve, start, {.max_iterations = options.max_iterations});
   std::vector<double> scale(count, points.y_scale);
   if (lead > 1) scale[1] /= points.x_scale;
   for (std::size_t i = lead + 1; i < count; i += 2) scale[i] = points.x_scale;

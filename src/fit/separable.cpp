@@ -88,7 +88,7 @@ std::optional<Start> projected(std::span<const double> y, const Separable& curve
     }
     return true;
   };
-  const Minimum minimum = minimise(y, at, start.shapes, 200);
+  const Minimum minimum = minimise(y, at, start.shapes, {});
   if (minimum.status == Minimum::Status::failed) return std::nullopt;
   return start_at(y, columns, minimum.parameters);
 }
@@ -136,7 +136,7 @@ Minimum minimise(std::span<const double> y, const Separable& curve, int max_iter
     }
     return true;
   };
-  return minimise(y, at, start, max_iterations);
+  return minimise(y, at, start, {.max_iterations = max_iterations});
 }
 
 void replace_parameter(Minimum& minimum, std::size_t i, double value, double slope) {

@@ -378,7 +378,7 @@ class UniaxialFit {
       return true;
     };
     const double guess = 1.0 / std::max(fit_.range_high - fit_.range_low, 1e-300);
-    const Minimum minimum = minimise(stress_, curve, std::array{guess, 0.0}, 200);
+    const Minimum minimum = minimise(stress_, curve, std::array{guess, 0.0}, {});
     const std::array scale{unit::kPa.from_si(scale_), unit::kPa.from_si(scale_)};
     settle(fit_, minimum, {stress_, scale_, scale, test_.residuals});
     if (fit_.termination == Termination::failed) return;

@@ -1,4 +1,4 @@
-// Least squares over the box [0, 1]^n by Ceres; this header contains no type of Ceres.
+// Least squares over the box [0, 1]^n.
 #pragma once
 
 #include <functional>
@@ -9,20 +9,17 @@
 
 namespace palpate::identify {
 
-// How derivatives are computed: by Ceres's automatic differentiation (closed forms only), by
-// central differences with a step of 1e-4 to 2e-4 of the box, or by Ridders's extrapolation.
-enum class Slopes { automatic, central, ridders };
-
 struct BoxProblem {
   // Computes the curve at u, one value per measured point; false if it cannot be evaluated.
   using Curve = std::function<bool(std::span<const double> u, std::span<double> values)>;
 
   std::size_t unknowns = 0;
   Curve curve;
-  const ClosedCurve* closed = nullptr;  // the same curve as a formula; null if there is none
-  Slopes slopes = Slopes::automatic;    // without `closed`, `automatic` means `central`
-  std::span<const double> measured;     // SI
-  std::span<const double> weights;      // 1/SI: factors that make the residuals of order one
+  // The same curve as a formula, whose derivatives are exact; null if there is none. Those of
+  // `curve` are central differences with a step of 1e-4 to 2e-4 of the box.
+  const ClosedCurve* closed = nullptr;
+  std::span<const double> measured;  // SI
+  std::span<const double> weights;   // 1/SI: factors that make the residuals of order one
 };
 
 struct BoxMinimum {

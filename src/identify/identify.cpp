@@ -156,7 +156,6 @@ class Search {
       });
     };
     if (!joint() && parts_.front().closed) problem_.closed = &*parts_.front().closed;
-    problem_.slopes = options_.slopes;
     problem_.measured = found_.measured;
     problem_.weights = weights_;
   }

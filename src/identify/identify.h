@@ -17,7 +17,6 @@ enum class Noise {
 
 struct IdentifyOptions {
   Noise noise = Noise::constant;
-  Slopes slopes = Slopes::automatic;
   int searches = 3;         // from different starts
   bool model_error = true;  // the intervals contain the stated error of the model
   bool profiles = true;     // computes profile likelihoods and the sensitivity to the contact point
