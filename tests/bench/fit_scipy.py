@@ -17,6 +17,10 @@ COMMANDS = {
     "liquid": "palpate fit liquid.csv --model prony --terms 1 --liquid --origin 0",
     "hertz": 'palpate fit hertz.csv --model hertz --radius "5 mm" --poisson 0.5 --baseline offset',
     "jkr": 'palpate fit jkr.csv --model adhesive --radius "2.5 um" --poisson 0.5',
+    "yeoh": "palpate fit rubber.csv --model yeoh",
+    "ogden": "palpate fit rubber.csv --model ogden",
+    "power_law": 'palpate fit power_law.csv --time time --model hertz_power_law --radius "2.5 um" --poisson 0.5',
+    "solid": 'palpate fit solid.csv --time time --model hertz_solid --radius "2.5 um" --poisson 0.5',
 }
 HEAD = "import numpy as np from scipy.optimize import curve_fit x, y = np.loadtxt('FILE', delimiter=',', skiprows=1).T "
 TAIL = " p, c = curve_fit(law, x, y, p0=START) print(p, np.sqrt(np.diag(c)))"
@@ -31,6 +35,18 @@ SCRIPTS = {
             x = [brentq(lambda x: x * x - 4 * np.sqrt(x) - one, 1, 1e3) if one > -3 else 1 for one in d]
             x = np.array(x)
             return np.where(np.arange(len(h)) < 301, np.pi * w * R / 6 * (x**3 - 6 * x**1.5), 0) + f""",
+    "yeoh": """law = lambda s, e, c, d: (s - s**-2) * (e / 3 + 4 * c * (s * s + 2 / s - 3) +
+        6 * d * (s * s + 2 / s - 3) ** 2)""",
+    "ogden": "law = lambda s, e, a: 2 * e / (3 * a) * (s ** (a - 1) - s ** (-a / 2 - 1))",
+    "power_law": """from scipy.special import gamma
+        law = lambda t, e, b, c, f: F * e * gamma(1.5) * gamma(1 - b) / gamma(2.5 - b) * np.maximum(t - c, 0) ** (1.5 - b)
+        + f""",
+    "solid": """angle = np.pi / 2 * (np.arange(2000) + 0.5) / 2000
+        def law(t, low, high, tau, contact, offset):
+            since = np.maximum(t - contact, 0)[:, None]
+            age = since * np.cos(angle) ** 2
+            rate = since**1.5 * np.sin(angle) ** 2 * np.cos(angle)
+            return F * np.sum((low + (high - low) * np.exp(-age / tau)) * rate, axis=1) + offset""",
 }
 
 
