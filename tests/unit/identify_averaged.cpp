@@ -1,0 +1,71 @@
+// Means of long records: nothing is lost of noise, corners and jumps stay where they are.
+#include "identify/averaged.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
+
+namespace palpate::identify {
+namespace {
+
+constexpr std::size_t rows = 30000;  // 20 in each of 1500 blocks
+
+AveragedRows means_of(const std::function<double(double)>& y, double noise = 0.0,
+                      std::size_t count = rows) {
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> x, values;
+  for (std::size_t i = 0; i < count; ++i) {
+    x.push_back(static_cast<double>(i) / static_cast<double>(count));
+    values.push_back(y(x.back()) + noise * normal(engine));
+  }
+  return averaged(x, values);
+}
+
+TEST(Averaged, ALineIsHalvedNowhere) {
+  const AveragedRows line = means_of([](double x) { return 3.0 * x; });
+  ASSERT_EQ(line.x.size(), 1500U);
+  for (std::size_t i = 0; i < 1500; ++i) {
+    EXPECT_EQ(line.count[i], 20.0);
+    EXPECT_NEAR(line.x[i], (20.0 * static_cast<double>(i) + 9.5) / rows, 1e-15);
+    EXPECT_NEAR(line.y[i], 3.0 * line.x[i], 1e-14);
+  }
+}
+
+// 4 standard errors are exceeded once in 16 000 times.
+TEST(Averaged, NoiseIsNoBend) {
+  for (const std::size_t count : {rows, std::size_t{6001}, std::size_t{4000}}) {
+    const AveragedRows found = means_of([](double) { return 0.0; }, 1.0, count);
+    EXPECT_LT(found.x.size(), 1510U) << count;
+    EXPECT_EQ(std::accumulate(found.count.begin(), found.count.end(), 0.0), count);
+  }
+}
+
+TEST(Averaged, AJumpIsBetweenTwoRows) {
+  for (const std::size_t place : {15007U, 15013U, 15001U}) {
+    const double jump = (static_cast<double>(place) - 0.5) / rows;
+    const AveragedRows found = means_of([&](double x) { return x < jump ? 0.0 : 1.0; }, 1e-3);
+    for (std::size_t i = 0; i < found.y.size(); ++i) {
+      const bool after = found.x[i] > jump;
+      EXPECT_NEAR(found.y[i], after ? 1.0 : 0.0, 0.006) << place;  // no mean of both
+    }
+    EXPECT_LT(found.x.size(), 1530U);
+  }
+}
+
+// A parabola bends as much in every block: by h^2/8 (3/16 of the block's square) beyond 1e-4 of
+// the range, or below it.
+TEST(Averaged, BendsBelowATenThousandthOfTheRangeStay) {
+  const auto wave = [](double waves) {
+    return means_of([=](double x) { return std::sin(2.0 * M_PI * waves * x); });
+  };
+  EXPECT_EQ(wave(1.0).x.size(), 1500U);
+  EXPECT_EQ(wave(6.0).x.size(), 1500U);  // the mean of a quarter bends by 6e-5 of the range
+  EXPECT_GT(wave(30.0).x.size(), 2500U);
+}
+
+}  // namespace
+}  // namespace palpate::identify
