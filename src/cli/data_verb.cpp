@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/numerics.h"
 #include "base/text.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
@@ -117,20 +118,69 @@ bool is_straight(const measured::MeasuredCurve& curve, double scatter) {
   }
 }
 
+// The root mean square that a large strain leaves, Pa or N: of nominal stress over strain, or of a
+// force over a length whose largest strain is `most`.
+double left_by_large_strain(const measured::MeasuredCurve& curve, fit::UniaxialTest test,
+                            std::optional<double> most = std::nullopt) {
+  std::vector<double> strain = curve.x;
+  const double scale = most ? *most / *std::max_element(strain.begin(), strain.end()) : 1.0;
+  for (double& each : strain) each *= scale;
+  try {
+    return unit::kPa.to_si(fit::fit_uniaxial(strain, curve.y, test).rmse);
+  } catch (const InputError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+using Uniaxial = fit::UniaxialTest::Model;
+using Loading = fit::UniaxialTest::Loading;
+
+// Whether a force over a length is rather that of a compressed specimen, whose height is unknown.
+bool is_compressed(const measured::MeasuredCurve& curve, double scatter) {
+  const auto left = [&](double most) {
+    return left_by_large_strain(
+        curve, {.model = Uniaxial::neo_hookean, .loading = Loading::compression}, most);
+  };
+  return left(numerics::minimum({0.05, 0.9}, left)) < scatter;
+}
+
+// Whether a stress over strain bends so much that a law of large strain leaves half the scatter.
+bool bends(const measured::MeasuredCurve& curve) {
+  const double line = left_by_large_strain(curve, {});
+  for (const Loading loading : {Loading::compression, Loading::tension})
+    if (left_by_large_strain(curve, {.model = Uniaxial::ogden, .loading = loading}) < 0.5 * line)
+      return true;
+  return false;
+}
+
 // Contact point, baseline and noise of a force over a length. Both follow from the shape of a
-// paraboloid's curve, whatever its radius; `round` says whether that describes the
-// whole curve.
-std::string contact_lines(const measured::MeasuredCurve& curve, bool& round, const Talk& talk) {
+// paraboloid's curve, whatever its radius; `platens` becomes the model of a specimen between
+// platens where that does not describe the whole curve.
+std::string contact_lines(const measured::MeasuredCurve& curve, std::string& platens,
+                          const Talk& talk) {
   const char* line =
       "a straight line describes the curve better than the law of a round tip, as of a specimen "
       "between platens\n";
   try {
     const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
     const bool straight = is_straight(curve, fit.rmse);
+    const bool compressed = !straight && !fit.gave_way && is_compressed(curve, fit.rmse);
     std::string text;
-    round = fit.r2 >= 0.9 && !fit.gave_way && !straight;
-    Details details{
-        {"round_tip", round}, {"straight", straight}, {"r2", fit.r2}, {"scatter_N", fit.rmse}};
+    const bool round = fit.r2 >= 0.9 && !fit.gave_way && !straight && !compressed;
+    if (compressed)
+      platens = "neo_hookean --loading compression";
+    else if (!round)
+      platens = "modulus";
+    Details details{{"round_tip", round},
+                    {"straight", straight},
+                    {"compressed", compressed},
+                    {"r2", fit.r2},
+                    {"scatter_N", fit.rmse}};
+    if (compressed) {
+      talk.event("contact", details);
+      return "the law of a specimen that is compressed by a large strain describes the curve "
+             "better than that of a round tip\n";
+    }
     if (!straight && fit.parameters.size() > 1)
       details.emplace_back("point_mm", fit.parameters[1].estimate);
     if (!straight && fit.parameters.size() > 2)
@@ -153,14 +203,16 @@ std::string contact_lines(const measured::MeasuredCurve& curve, bool& round, con
   } catch (const InputError& error) {
     const std::string& why = error.problems().front().message;
     const auto [least, most] = std::minmax_element(curve.y.begin(), curve.y.end());
-    round = !is_straight(curve, 0.05 * (*most - *least));  // a line with R^2 above 0.97
+    const bool round = !is_straight(curve, 0.05 * (*most - *least));  // a line: R^2 above 0.97
+    if (!round) platens = "modulus";
     talk.event("contact", {{"round_tip", round}, {"straight", !round}, {"why", why}});
     return round ? "no contact point: " + why + "\n" : line;
   }
 }
 
 // What to type next for the dimensions of the two columns.
-std::string next_line(const Data& command, const measured::MeasuredCurve& curve, bool round) {
+std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
+                      const std::string& platens) {
   std::string line = "palpate fit " + quoted(command.data) + " --x " + quoted(curve.x_axis.column) +
                      " --y " + quoted(curve.y_axis.column);
   for (const std::string& note : curve.notes)
@@ -172,8 +224,8 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
   if (!curve.y_axis.has_unit) line += " --y-unit UNIT";
   const Dimension& x = curve.x_axis.dimension;
   const Dimension& y = curve.y_axis.dimension;
-  if (x == unit::mm.dimension && y == unit::N.dimension && !round)
-    return line + " --model modulus --height \"... mm\" --area \"... mm^2\"";
+  if (x == unit::mm.dimension && y == unit::N.dimension && !platens.empty())
+    return line + " --model " + platens + " --height \"... mm\" --area \"... mm^2\"";
   if (x == unit::mm.dimension && y == unit::N.dimension)
     return line + " --model hertz --radius \"... mm\" --poisson 0.5";
   if (x == unit::mm.dimension && y == unit::mm.dimension &&
@@ -214,7 +266,7 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
   for (const std::string& sentence : table.notes) note(sentence);
   for (std::size_t i = 0; i < table.width(); ++i) text += column_line(table, i, talk);
   text += segment_lines(table, talk);
-  bool round = true;
+  std::string platens;
   try {
     const measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
     text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
@@ -223,8 +275,13 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
       if (std::find(table.notes.begin(), table.notes.end(), sentence) == table.notes.end())
         note(sentence);
     if (curve.x_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension)
-      text += contact_lines(curve, round, talk);
-    const std::string next = next_line(command, curve, round);
+      text += contact_lines(curve, platens, talk);
+    if (curve.x_axis.dimension == Dimension{} && curve.y_axis.dimension == unit::kPa.dimension &&
+        bends(curve))
+      note(
+          "the stress bends away from a straight line, and a law of large strain describes all of "
+          "it: `--model ogden --loading compression`, or `--loading tension`");
+    const std::string next = next_line(command, curve, platens);
     text += "next: " + next + "\n";
     talk.event("next", {{"command", next}});
   } catch (const InputError& error) {

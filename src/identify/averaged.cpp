@@ -29,7 +29,6 @@ class Blocks {
       add(from + size / 2, to);
       return;
     }
-    if (size == 0) return;
     found.x.push_back(mean(x_, from, to));
     found.y.push_back(mean(y_, from, to));
     found.count.push_back(static_cast<double>(size));

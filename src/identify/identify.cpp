@@ -84,7 +84,7 @@ class Search {
     if (options_.profiles) {
       profiles();
       sensitivity();
-      widen_by_start(*pairs_.front().measured);
+      widen_by_start();
     }
     conclude();
     return std::move(found_);
@@ -495,10 +495,10 @@ class Search {
         start[contact] = std::clamp(
             unknowns_[contact].inverse(found_.unknowns[contact].estimate + shift), 0.0, 1.0);
       else
-        shift_points(shift);
+        shift_points(parts_.front(), shift);
       const BoxMinimum moved = minimise_in_box(problem_, start, held, Want::squares);
       StopScope::end_if_stopped();
-      if (contact == n) shift_points(0.0);
+      if (contact == n) shift_points(parts_.front(), 0.0);
       found_.evaluations += moved.evaluations;
       if (!moved.found) continue;
       for (std::size_t i = 0; i < n; ++i) {
@@ -511,23 +511,25 @@ class Search {
   }
 
   // The best fit from all starts of a record whose step lies between two rows: each end of an
-  // interval moves as far as the best fit does in its direction.
-  void widen_by_start(const Measurement& measured) {
-    if (joint()) return;
-    std::vector<double> least(unknowns_.size(), 0.0);
-    std::vector<double> most = least;
-    for (const double start : measured.starts) {
-      shift_points(start);
-      const BoxMinimum moved = minimise_in_box(problem_, best_.u, {}, Want::squares);
-      shift_points(0.0);
-      StopScope::end_if_stopped();
-      found_.evaluations += moved.evaluations;
-      for (std::size_t i = 0; i < least.size() && moved.found; ++i) {
-        least[i] = std::min(least[i], moved.u[i] - best_.u[i]);
-        most[i] = std::max(most[i], moved.u[i] - best_.u[i]);
+  // interval moves as far as the best fit does in its direction, for each of several tests.
+  void widen_by_start() {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      std::vector<double> least(unknowns_.size(), 0.0);
+      std::vector<double> most = least;
+      for (const double start : pairs_[k].measured->starts) {
+        shift_points(parts_[k], start);
+        const BoxMinimum moved = minimise_in_box(problem_, best_.u, {}, Want::squares);
+        shift_points(parts_[k], 0.0);
+        StopScope::end_if_stopped();
+        found_.evaluations += moved.evaluations;
+        for (std::size_t i = 0; i < least.size() && moved.found; ++i) {
+          least[i] = std::min(least[i], moved.u[i] - best_.u[i]);
+          most[i] = std::max(most[i], moved.u[i] - best_.u[i]);
+        }
       }
+      for (std::size_t i = 0; i < least.size(); ++i)
+        move_ends(found_.unknowns[i], least[i], most[i]);
     }
-    for (std::size_t i = 0; i < least.size(); ++i) move_ends(found_.unknowns[i], least[i], most[i]);
   }
 
   // Moves the ends of an interval by steps in u.
@@ -540,11 +542,11 @@ class Search {
     for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, by_high);
   }
 
-  void shift_points(double shift) {
-    Part& part = parts_.front();
+  void shift_points(Part& part, double shift) {
     part.curve->set_shift(shift);
     if (part.closed)
-      for (std::size_t i = 0; i < found_.x.size(); ++i) part.closed->x[i] = found_.x[i] - shift;
+      for (std::size_t i = 0; i < part.closed->x.size(); ++i)
+        part.closed->x[i] = found_.x[part.from + i] - shift;
   }
 
   void conclude() {

@@ -1,7 +1,6 @@
 // The loading history is lengthened where its end alone would leave rows of the measurement out.
 #include "identify/lengthen.h"
 
-#include <cmath>
 #include <optional>
 
 namespace palpate::identify {
@@ -11,15 +10,15 @@ std::optional<double> duration(const scenario::Scenario& scenario) {
   for (const scenario::Step& step : scenario.steps) {
     if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
       if (indent->to.second) return std::nullopt;
-      time += std::abs(indent->to.value - travel) / indent->rate;
+      time += (indent->to.value - travel) / indent->rate;
       travel = indent->to.value;
     } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
-      time += std::abs(retract->to - travel) / retract->rate;
+      time += (travel - retract->to) / retract->rate;
       travel = retract->to;
     } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
       time += hold->time;
     } else if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      time += std::abs(slide->by) / slide->rate;
+      time += slide->by / slide->rate;
     } else if (const auto* creep = std::get_if<scenario::Creep>(&step)) {
       time += creep->load_time + creep->recovery_time;
     } else if (const auto* relax = std::get_if<scenario::Relax>(&step)) {
@@ -71,8 +70,8 @@ bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest) {
   if (kind == CurveKind::tangential_slide) {
     for (scenario::Step& step : scenario.steps)
       if (auto* slide = std::get_if<scenario::Slide>(&step)) {
-        if (std::abs(slide->by) >= farthest) return false;
-        slide->by = std::copysign(end, slide->by);
+        if (slide->by >= farthest) return false;
+        slide->by = end;
         return true;
       }
     return false;

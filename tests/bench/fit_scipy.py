@@ -17,6 +17,10 @@ COMMANDS = {
     "liquid": "palpate fit liquid.csv --model prony --terms 1 --liquid --origin 0",
     "hertz": 'palpate fit hertz.csv --model hertz --radius "5 mm" --poisson 0.5 --baseline offset',
     "jkr": 'palpate fit jkr.csv --model adhesive --radius "2.5 um" --poisson 0.5',
+    "yeoh": "palpate fit rubber.csv --model yeoh",
+    "ogden": "palpate fit rubber.csv --model ogden",
+    "power_law": 'palpate fit power_law.csv --time time --model hertz_power_law --radius "2.5 um" --poisson 0.5',
+    "solid": 'palpate fit solid.csv --time time --model hertz_solid --radius "2.5 um" --poisson 0.5',
 }
 HEAD = "import numpy as np from scipy.optimize import curve_fit x, y = np.loadtxt('FILE', delimiter=',', skiprows=1).T "
 TAIL = " p, c = curve_fit(law, x, y, p0=START) print(p, np.sqrt(np.diag(c)))"
@@ -31,6 +35,18 @@ SCRIPTS = {
             x = [brentq(lambda x: x * x - 4 * np.sqrt(x) - one, 1, 1e3) if one > -3 else 1 for one in d]
             x = np.array(x)
             return np.where(np.arange(len(h)) < 301, np.pi * w * R / 6 * (x**3 - 6 * x**1.5), 0) + f""",
+    "yeoh": """law = lambda s, e, c, d: (s - s**-2) * (e / 3 + 4 * c * (s * s + 2 / s - 3) +
+        6 * d * (s * s + 2 / s - 3) ** 2)""",
+    "ogden": "law = lambda s, e, a: 2 * e / (3 * a) * (s ** (a - 1) - s ** (-a / 2 - 1))",
+    "power_law": """from scipy.special import gamma
+        law = lambda t, e, b, c, f: F * e * gamma(1.5) * gamma(1 - b) / gamma(2.5 - b) * np.maximum(t - c, 0) ** (1.5 - b)
+        + f""",
+    "solid": """angle = np.pi / 2 * (np.arange(2000) + 0.5) / 2000
+        def law(t, low, high, tau, contact, offset):
+            since = np.maximum(t - contact, 0)[:, None]
+            age = since * np.cos(angle) ** 2
+            rate = since**1.5 * np.sin(angle) ** 2 * np.cos(angle)
+            return F * np.sum((low + (high - low) * np.exp(-age / tau)) * rate, axis=1) + offset""",
 }
 
 
@@ -121,6 +137,57 @@ def adhesion(folder, rng):
     say("jkr (E in kPa, w in mJ/m^2)", found.x[:2] * [7.5, 0.01], errors[:2] * [7.5, 0.01])
 
 
+# Treloar's simple tension of vulcanised rubber (1944), stretches and nominal stresses in MPa, as Steinmann, Hossain and
+# Possart print them (Arch. Appl. Mech. 82, 2012).
+STRETCH = """1 1.01 1.12 1.24 1.39 1.61 1.89 2.17 2.42 3.01 3.58 4.03 4.76 5.36 5.76 6.16 6.4 6.62 6.87 7.05 7.16 7.27 7.43
+    7.5 7.61"""
+STRESS = """0 0.03 0.14 0.23 0.32 0.41 0.5 0.58 0.67 0.85 1.04 1.21 1.58 1.94 2.29 2.67 3.02 3.39 3.75 4.12 4.47 4.85 5.21
+    5.57 6.3"""
+
+
+def large_strains(folder):
+    stretch, stress = np.array(STRETCH.split(), float), 1e3 * np.array(STRESS.split(), float)
+    save(folder / "rubber.csv", "stretch,stress (kPa)", stretch, stress)
+
+    def yeoh(s, e, c2, c3):
+        over = s * s + 2 / s - 3
+        return (s - s**-2) * (e / 3 + 4 * c2 * over + 6 * c3 * over**2)
+
+    def ogden(s, e, alpha):
+        return 2 * e / (3 * alpha) * (s ** (alpha - 1) - s ** (-alpha / 2 - 1))
+
+    for name, law, start in (("yeoh", yeoh, (1e3, 1, 0.1)), ("ogden", ogden, (150, -7.0))):
+        values, covariance = curve_fit(law, stretch, stress, p0=start, xtol=1e-12, ftol=1e-12)
+        say(name, values, np.sqrt(np.diag(covariance)))
+
+
+def viscous(folder, rng):
+    """Approaches at 1 um/s by a ball of 2.5 um, with contact at 0.2 um."""
+    t = np.linspace(0, 1, 401)
+    factor = 4 / 3 * np.sqrt(2.5e-6) / 0.75 * 1e-6**1.5
+
+    def power(t, e, beta, contact, offset):
+        since = np.maximum(t - contact, 0)
+        law = 1.5 * gamma(1.5) * gamma(1 - beta) / gamma(2.5 - beta) * since ** (1.5 - beta)
+        return factor * 1e12 * e * law + offset
+
+    def solid(t, low, high, tau, contact, offset):  # the time s in the place of contact is s = since * sin(angle)^2
+        angle = np.pi / 2 * (np.arange(2000) + 0.5) / 2000
+        since = np.maximum(t - contact, 0)[:, None]
+        age = since * np.cos(angle) ** 2
+        rate = 1.5 * since**1.5 * np.sin(angle) * 2 * np.sin(angle) * np.cos(angle)
+        law = np.sum((low + (high - low) * np.exp(-age / tau)) * rate, axis=1) * np.pi / 2 / 2000
+        return factor * 1e12 * law + offset
+
+    for name, law, truth in (("power_law", power, (1.0, 0.25, 0.2, 0.0)), ("solid", solid, (0.5, 1.5, 0.15, 0.2, 0.0))):
+        y = law(t, *truth)
+        y += rng.normal(0, 0.01 * y[-1], len(t))
+        np.savetxt(folder / f"{name}.csv", np.c_[t, t, y], delimiter=",", fmt="%.17g", comments="",
+                   header="time (s),depth (um),force (nN)")
+        values, covariance = curve_fit(law, t, y, p0=np.array(truth) * 0.9)
+        say(name, values, np.sqrt(np.diag(covariance)))
+
+
 def main():
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     rng = np.random.default_rng(11)
@@ -128,6 +195,8 @@ def main():
     relaxations(folder, rng, others)
     adhesion(folder, rng)
     press(folder, rng, others)
+    large_strains(folder)
+    viscous(folder, rng)
     words()
 
 

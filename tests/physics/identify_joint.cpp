@@ -153,6 +153,34 @@ TEST(IdentifyJoint, GainAndDelayOfASensor) {
   EXPECT_EQ(found.pairs.size(), 2U);
 }
 
+// Each of two records begins one row after its step, and its first row is taken as the step.
+TEST(IdentifyJoint, StepsBetweenTwoRowsAreInTheInterval) {
+  test::IdentifyScene scene = test::identify_scene("relaxation");
+  // So short that what two records leave open adds up.
+  scene.text.replace(scene.text.find("20 ms"), 5, "4 ms");
+  const scenario::Family family = scenario::parse(scene.text, "test.toml", {});
+  std::vector<identify::Measurement> late(2, test::clean_curve(scene));
+  const std::vector<const scenario::Scenario*> scenarios(2, &family.cases[0].scenario);
+  const double gap = late[0].x[1] - late[0].x[0];
+  for (std::size_t k = 0; k < late.size(); ++k) {
+    late[k] = test::noisy(late[k], 0.0005, k + 1);
+    late[k].x.pop_back();
+    late[k].y.erase(late[k].y.begin());
+  }
+  const auto ratio = [&] {
+    const std::vector<identify::Pair> pairs{{&late[0], &family}, {&late[1], &family}};
+    const auto found = identify::identify(pairs, identify::read_unknowns(scene.unknowns, scenarios),
+                                          {.searches = 1});
+    return identify::trusted(found.unknowns[2]);
+  };
+  EXPECT_LT(*ratio().high, 2.0);
+  late[0].starts = {-gap};
+  const double one_is_open = *ratio().high;
+  late[1].starts = {-gap};
+  EXPECT_GT(*ratio().high, 2.0);
+  EXPECT_LT(one_is_open, *ratio().high);
+}
+
 TEST(IdentifyJoint, NamesOfUnknowns) {
   const auto one = scenario::parse(layer_press("2 mm").text, "a.toml", {});
   const auto two = scenario::parse(layer_press("20 mm").text, "b.toml", {});

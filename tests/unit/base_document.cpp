@@ -254,6 +254,7 @@ TEST(Setting, WhatCannotBeSetIsRefused) {
   };
   for (const auto& [assignment, sentence] : cases)
     EXPECT_EQ(setting_refusal(text, assignment), sentence);
+  EXPECT_TRUE(setting_refusal(text, "a.b=" + std::string(5000, 'x')).starts_with("--set a.b: "));
 }
 
 // --- writing

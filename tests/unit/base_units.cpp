@@ -138,6 +138,9 @@ TEST(Units, EveryRefusalSaysWhatWasWantedAndOneRemedy) {
        "number"},
   };
   for (const auto& one : cases) EXPECT_EQ(refusal(one.text, one.wanted), one.sentence);
+  const std::string furlongs(5000, 'f');
+  EXPECT_EQ(refusal("5 " + furlongs, unit::mm),
+            "wants a length, got `5 " + furlongs + "` with an unknown unit; write it as `5 mm`");
 }
 
 TEST(Units, WhatIsNoUnitExpressionIsRefused) {

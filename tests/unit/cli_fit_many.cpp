@@ -161,5 +161,28 @@ TEST_F(FitMany, DataAdvisesAModulusForAStraightLine) {
   EXPECT_NE(mass.out.find("--y-unit gf --model hertz"), std::string::npos) << mass.out;
 }
 
+// A specimen of 10 mm that is compressed by half has P = E/3 (L^-2 - L); a ball has h^(3/2).
+TEST_F(FitMany, DataTellsACompressedSpecimenFromABall) {
+  const auto said = [&](const std::string& head, bool specimen, double height) {
+    std::string text = head + "\n";
+    for (int i = 0; i <= 120; ++i) {
+      const double strain = 0.5 * i / 120;
+      const double left = 1.0 - strain;
+      const double load = specimen ? 1.0 / (left * left) - left : 6.0 * std::pow(strain, 1.5);
+      text += std::to_string(height * strain) + "," +
+              std::to_string(load + 0.01 * std::sin(7.0 * i * i)) + "\n";
+    }
+    write_file(folder_ / "c.csv", text);
+    return palpate(folder_.path(), {"data", "c.csv"}).out;
+  };
+  std::string out = said("Extension (mm),Load (N)", true, 10.0);
+  EXPECT_NE(out.find("--model neo_hookean --loading compression --height"), std::string::npos)
+      << out;
+  out = said("Extension (mm),Load (N)", false, 10.0);
+  EXPECT_NE(out.find("--model hertz --radius"), std::string::npos) << out;
+  out = said("strain (1),stress (kPa)", true, 1.0);
+  EXPECT_NE(out.find("`--model ogden --loading compression`"), std::string::npos) << out;
+}
+
 }  // namespace
 }  // namespace palpate::test
