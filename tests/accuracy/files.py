@@ -330,10 +330,10 @@ def measured(command, seconds):
 def size_of(palpate, path):
     """The largest extent in the file's unit, from palpate's own box; None if it cannot be read."""
     solid = not re.search(r'\.(stl|obj|off|ply|vtp)$', path)
-    code, out, err, _, _ = measured([palpate, 'mesh', path, '--unit', 'm', '--csv'], 200)
+    code, out, err, _, _ = measured([palpate, 'convert', path, '--unit', 'mm', '--csv'], 200)
     found = [float(x) for x in re.findall(r'(?:lowest|highest)_._mm,([-0-9.e+]+)', out)]
     if len(found) == 6:
-        return max(found[2 * i + 1] - found[2 * i] for i in range(3)) / 1000
+        return max(found[2 * i + 1] - found[2 * i] for i in range(3))
     if solid and not found:
         return None
     numbers = []
