@@ -278,8 +278,9 @@ class Chooser {
   // leaves, else the error of the coarse mesh, which falls with the square of the cells' size.
   [[nodiscard]] double of_mesh(const Rung& rung) const {
     if (rung.solid) {
-      if (tolerance() >= solid::error_of_one_mesh) return solid::error_of_one_mesh;
-      return std::max(tolerance(), solid::error_of_three_meshes);
+      const double narrowed = std::max(1.0, solid::most_narrowed / choice_.touch.width);
+      if (tolerance() >= solid::error_of_one_mesh) return narrowed * solid::error_of_one_mesh;
+      return narrowed * std::max(tolerance(), solid::error_of_three_meshes);
     }
     if (!rung.meshed()) return 0.0;
     if (scene::refines(asked_)) return scene::refined_share * tolerance();

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "geometry/box_tree.h"
 #include "run/pressure_map.h"
 
 namespace palpate::run {
@@ -20,29 +19,6 @@ constexpr std::array<double, 3> per_radius{2.0, 3.2, 4.4};
 // On one mesh with an inclusion: by 2.0 forces were 3 to 5 % high above inclusions near the
 // surface.
 constexpr double beside_inclusion = 2.6;
-
-constexpr double most_narrowed = 0.5;  // finer meshes take minutes
-
-// How wide the contact on a sharp edge is across it, over that on a flat: where the undeformed
-// sphere, at the deepest, overlaps sides with slopes s to it, x = R (sqrt(s^2 + 2 d/R) - s). 1 away
-// from edges.                                                    docs/theory.md [edge_width]
-double width_on(const scene::SolidBody& body, const scene::Finger& finger, double deepest) {
-  if (finger.centres.size() > 1 || !(deepest > 0.0)) return 1.0;
-  const Vec3& centre = body.first_touch;
-  const auto foot =
-      body.skin->foot(centre, geometry::BoxTree(body.skin->surface()).nearest(centre));
-  if (!foot.on_crease) return 1.0;
-  const Vec3 towards = (centre - foot.position).normalized();
-  const double flat = 2.0 * deepest / finger.sphere_radius;
-  double width = 0.0;
-  for (const geometry::SurfacePoint& side : {foot.at, foot.beyond}) {
-    constexpr double steepest = 0.1;  // its cosine
-    const double cosine = std::clamp(body.skin->normal(side).dot(towards), steepest, 1.0);
-    const double slope = std::sqrt(1.0 - cosine * cosine) / cosine;
-    width += 0.5 * (std::sqrt(slope * slope + flat) - slope) / std::sqrt(flat);
-  }
-  return width;
-}
 
 std::size_t meshes_for(double tolerance) {
   if (tolerance >= solid::error_of_one_mesh) return 1;
@@ -67,7 +43,10 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
 // from theirs.
 void SolidPress::make() {
   for (;;) {
-    width_ = width_on(body(), scene_->finger, deepest_);
+    width_ = scene_->finger.centres.size() > 1
+                 ? 1.0
+                 : scene::width_on_edge(*body().skin, body().first_touch,
+                                        scene_->finger.sphere_radius, deepest_);
     try {
       presses_.clear();
       for (std::size_t i = 0; i < per_radius_.size(); ++i) presses_.push_back(made(i));
@@ -138,7 +117,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.base_level = given.base_level;
   body.base_up = scenario.tissue.base_up;
   body.mirrored = {true, true};
-  body.per_radius = per_radius / std::clamp(width_, most_narrowed, 1.0);
+  body.per_radius = per_radius / std::clamp(width_, solid::most_narrowed, 1.0);
   order.skin = given.skin.get();
   order.centres = finger.centres;
   order.radius = finger.sphere_radius;
@@ -189,7 +168,7 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   // The meshes are made for the deepest travel, and for a width on edges; their elements are larger
   // beside smaller and narrower contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
-  error_ *= std::max(1.0, most_narrowed / width_);
+  error_ *= std::max(1.0, solid::most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();
   if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "contact/elliptic.h"
 #include "contact/hertz.h"
+#include "geometry/box_tree.h"
 #include "geometry/shapes.h"
 #include "scenario/programme.h"
 #include "scene/first_touch.h"
@@ -180,6 +181,12 @@ double thickness_under(const geometry::Surface& surface, const Vec3& point) {
   return point.z() - end;
 }
 
+// The law of a rigid finger on a flat: that of an elastic one changes little here.
+contact::SphereLaw law_on_flat(const Scenario& scenario) {
+  const contact::Elastic tissue{scenario.tissue.young_modulus, scenario.tissue.poisson_ratio};
+  return {scenario.finger.radius, contact::hertz::effective_modulus(0.0, tissue.compliance())};
+}
+
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
@@ -205,6 +212,8 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   if (first.on_crease) {
     touch.to_edge = 0.0;
     touch.cannot = on_an_edge;
+    touch.width = width_on_edge(surface, first.finger, radius,
+                                deepest_travel(scenario, law_on_flat(scenario)));
     return touch;
   }
   touch.to_edge = to_creases(surface, surface.position(first.at), surface.normal(first.at));
@@ -229,11 +238,7 @@ geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& sur
                                               const Scenario& scenario) {
   constexpr int most_rings = 20;
   const double edge = edges_around(surface, at.triangle);
-  const double modulus = scenario.tissue.young_modulus;  // that of the finger changes little here
-  contact::SphereLaw law{
-      scenario.finger.radius,
-      contact::hertz::effective_modulus(
-          0.0, contact::Elastic{modulus, scenario.tissue.poisson_ratio}.compliance())};
+  contact::SphereLaw law = law_on_flat(scenario);
   const int least = scenario.contact.curvature_rings;
   geometry::CurvatureOptions options;
   options.method = scenario.contact.curvature;
@@ -252,6 +257,23 @@ geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& sur
     if (!(inverse + kappa_2 > 0.0)) return estimate;
     law.radius = contact::geometric_radius(scenario.finger.radius, kappa_1, kappa_2);
   }
+}
+
+double width_on_edge(const geometry::SmoothSurface& surface, const Vec3& centre, double radius,
+                     double deepest) {
+  if (!(deepest > 0.0)) return 1.0;
+  const auto foot = surface.foot(centre, geometry::BoxTree(surface.surface()).nearest(centre));
+  if (!foot.on_crease) return 1.0;
+  const Vec3 towards = (centre - foot.position).normalized();
+  const double flat = 2.0 * deepest / radius;
+  double width = 0.0;
+  for (const geometry::SurfacePoint& side : {foot.at, foot.beyond}) {
+    constexpr double steepest = 0.1;  // its cosine
+    const double cosine = std::clamp(surface.normal(side).dot(towards), steepest, 1.0);
+    const double slope = std::sqrt(1.0 - cosine * cosine) / cosine;
+    width += 0.5 * (std::sqrt(slope * slope + flat) - slope) / std::sqrt(flat);
+  }
+  return width;
 }
 
 double SurfaceTouch::inclination() const {

@@ -26,6 +26,7 @@ struct SurfaceTouch {
   // m, from the touch to the nearest edge (convex crease) of a file's surface, 0 on one, to the end
   // of a lying cylinder or limb, or from the finger's way to the nearest side of a cuboid.
   double to_edge = std::numeric_limits<double>::infinity();
+  double width = 1.0;       // of the contact at the deepest travel, as width_on_edge()
   bool one_sided = false;   // the curvature has StarStatus::one_sided
   std::string cannot = {};  // why there is no curvature; empty if there is one
   std::string remark = {};  // on a surface that was mended; empty if it is as the file gives it
@@ -53,6 +54,13 @@ struct SurfaceTouch {
 [[nodiscard]] geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& surface,
                                                             const geometry::SurfacePoint& at,
                                                             const scenario::Resolved& scenario);
+
+// How wide the contact on a sharp edge is across it, over that on a flat: where the undeformed
+// sphere, at the deepest travel (m), overlaps sides with slopes s to it,
+// x = R (sqrt(s^2 + 2 d/R) - s). `centre` is that of the sphere at first touch, m. 1 away from
+// edges.                                                        docs/theory.md [edge_width]
+[[nodiscard]] double width_on_edge(const geometry::SmoothSurface& surface, const Vec3& centre,
+                                   double radius, double deepest);
 
 // The touch of one sphere of `finger.radius` at `finger.x`, `finger.y`: in closed form for a
 // parametric shape; for a file, on the file's triangles, with the quadric fit of the surface of a

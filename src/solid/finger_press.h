@@ -165,6 +165,9 @@ class FingerPress {
 inline constexpr double error_of_one_mesh = 0.03;
 inline constexpr double error_of_two_meshes = 0.01;
 inline constexpr double error_of_three_meshes = 0.005;
+// Elements follow the width of the contact on a sharp edge down to this, over that on a flat: finer
+// meshes take minutes. The stated error grows beyond.
+inline constexpr double most_narrowed = 0.5;
 
 // A force on finer and finer meshes: that of an infinitely fine one, with its error, N. Errors fall
 // with the square of the elements' size; `per_radius` are the numbers of elements in a contact

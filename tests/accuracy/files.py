@@ -329,11 +329,11 @@ def measured(command, seconds):
 
 def size_of(palpate, path):
     """The largest extent in the file's unit, from palpate's own box; None if it cannot be read."""
-    solid = not re.search(r'\.(stl|obj|off|ply|vtp)$', path)
-    code, out, err, _, _ = measured([palpate, 'mesh', path, '--unit', 'm', '--csv'], 200)
+    solid = not re.search(r'\.(stl|obj|off|ply|vtp)$', path.lower())
+    code, out, err, _, _ = measured([palpate, 'convert', path, '--unit', 'mm', '--csv'], 200)
     found = [float(x) for x in re.findall(r'(?:lowest|highest)_._mm,([-0-9.e+]+)', out)]
     if len(found) == 6:
-        return max(found[2 * i + 1] - found[2 * i] for i in range(3)) / 1000
+        return max(found[2 * i + 1] - found[2 * i] for i in range(3))
     if solid and not found:
         return None
     numbers = []
@@ -354,7 +354,7 @@ def size_of(palpate, path):
 
 
 def scenario(path, unit, size, up):
-    surface = re.search(r'\.(stl|obj|off|ply|vtp)$', path) or 'triangles' in os.path.basename(path)
+    surface = re.search(r'\.(stl|obj|off|ply|vtp)$', path.lower()) or 'triangles' in os.path.basename(path)
     radius = 40.0 * size
     shape = ('shape = { file = "%s", unit = "%s", up = "%s" }' % (path, unit, up) if surface else
              'shape = { kind = "as_meshed", up = "%s" }\nmesh = { file = "%s", unit = "%s" }' %
