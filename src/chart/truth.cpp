@@ -182,7 +182,8 @@ class Finder {
   [[nodiscard]] bool even() const {
     const auto& shape = scenario_.tissue.shape;
     return (std::holds_alternative<scenario::Cuboid>(shape) ||
-            std::holds_alternative<scenario::Cylinder>(shape)) &&
+            std::holds_alternative<scenario::Cylinder>(shape) ||
+            std::holds_alternative<scenario::Disc>(shape)) &&
            !std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh) &&
            scenario_.regions.empty() && scenario_.tissue.base == tissue::Base::frictionless &&
            scenario_.tissue.viscosity != tissue::Viscosity::nodal_drag &&

@@ -9,14 +9,14 @@
 namespace palpate::cli {
 namespace {
 
-std::string text_of(const compare::Check& check, bool headed, compare::Show show) {
+// Differences, then a line of what is equal; of several checks, those that differ only.
+std::string text_of(const compare::Check& check, bool headed, const Talk& talk) {
   if (!check.error.empty()) return "";  // said on stderr
-  if (show == compare::Show::differing && check.equal()) return "";
-  if (check.one_file)
-    return compare::comparison_text(check.comparison.files.front().comparison, show);
-  return (headed ? compare::one_line(check.name) + (check.equal() ? ": equal\n" : ": DIFFERS\n")
-                 : "") +
-         compare::comparison_text(check.comparison, show);
+  if (headed && check.equal()) return "";
+  return (headed ? compare::one_line(check.name) + ": DIFFERS\n" : "") +
+         (check.one_file ? compare::comparison_text(check.comparison.files.front().comparison)
+                         : compare::comparison_text(check.comparison)) +
+         (talk.quiet() ? "" : compare::equal_text(check.comparison));
 }
 
 // The table of the check, with its name in a first column if there are several.
@@ -32,13 +32,12 @@ record::Table table_of(const compare::Check& check, bool headed) {
 
 void report_checks(std::span<const compare::Check> checks, const CheckOptions& options,
                    const Talk& talk) {
-  const auto show = talk.quiet() ? compare::Show::differing : compare::Show::all;
   for (const compare::Check& check : checks) {
     if (!check.error.empty()) Talk::error(check.error);
     if (talk.json())
       print(json_lines(table_of(check, options.headed)));
     else
-      print_text(text_of(check, options.headed, show));
+      print_text(text_of(check, options.headed, talk));
   }
   if (!options.junit.empty()) write_atomically(options.junit, compare::junit_text(checks));
   // GitHub reads commands on both streams; stdout may be JSON.

@@ -1,13 +1,18 @@
 // `palpate compare`: compares two files or two folders.
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/index.h"
+#include "base/text.h"
 #include "cli/checks.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "page/page.h"
+#include "plot/gnuplot.h"
 #include "record/csv.h"
 
 namespace palpate::cli {
@@ -15,56 +20,188 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string state_text(const compare::ColumnComparison& column) {
-  using State = compare::ColumnComparison::State;
-  switch (column.state) {
-    case State::ignored: return "ignored";
-    case State::missing: return "missing";
-    case State::extra: return "extra";
-    case State::compared: break;
-  }
-  return column.equal() ? "agrees" : "differs in " + std::to_string(column.differing) + " rows";
-}
-
-// One row per column of a file, with its worst row.
-page::Markup table_of(const std::string& file, const compare::Comparison& comparison) {
-  record::Table table{{"column", "verdict", "worst row", "got", "wanted", "relative", "allowed"},
-                      {}};
-  for (const compare::ColumnComparison& column : comparison.columns) {
+// The columns of a file that differ, or those that agree, each with its worst row.
+page::Markup table_of(const compare::FileComparison& file, bool differing) {
+  record::Table table{{"column", "got", "wanted", "relative", "allowed", "rows", "where"}, {}};
+  for (const compare::ColumnComparison& column : file.comparison.columns) {
+    if (column.equal() == differing) continue;
     std::vector<record::Cell> row(table.columns.size());
     row[0] = column.name;
-    row[1] = state_text(column);
-    if (column.worst) {
-      row[2] = static_cast<double>(column.worst->row);
-      row[3] = column.worst->got;
-      row[4] = column.worst->want;
-      row[5] = column.worst->relative;
-      row[6] = column.worst->allowed;
+    if (!column.worst) {
+      row[6] = compare::verdict_text(column);
+    } else {
+      const compare::WorstRow& worst = *column.worst;
+      row[1] = worst.got;
+      row[2] = worst.want;
+      row[3] = worst.relative;
+      row[4] = worst.allowed;
+      row[5] = static_cast<double>(column.differing);
+      row[6] = "row " + std::to_string(worst.row) +
+               (worst.case_name.empty() ? "" : ", case " + worst.case_name);
     }
     table.rows.push_back(row);
   }
-  return page::element("h3", file) + page::table(file, table);
+  if (differing && !file.comparison.rows_equal())
+    table.rows.push_back({"rows",
+                          static_cast<double>(file.comparison.rows_got),
+                          static_cast<double>(file.comparison.rows_want),
+                          {},
+                          {},
+                          {},
+                          {}});
+  return table.rows.empty() ? page::Markup() : page::table(file.file, table);
 }
 
-void write_page(const Compare& command, const compare::FolderComparison& comparison) {
+// The column of a file that differs first by place_of(); without a difference, the first curve.
+const compare::ColumnComparison* told_first(const compare::FileComparison& file) {
+  const compare::ColumnComparison* first = nullptr;
+  for (const compare::ColumnComparison& column : file.comparison.columns)
+    if (column.worst && !column.equal() &&
+        (first == nullptr || compare::place_of(column) < compare::place_of(*first)))
+      first = &column;
+  return first;
+}
+
+// Whether the rows of every case have another value of the column than the row before.
+bool rises(const record::Table& table, int column) {
+  const int name = table.find("case");
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    const auto& before = table.rows[i - 1];
+    const auto& row = table.rows[i];
+    if (name >= 0 && row[as_index(name)] != before[as_index(name)]) continue;
+    if (row[as_index(column)] == before[as_index(column)]) return false;
+  }
+  return true;
+}
+
+// The curve of both results in one figure: what was got as a line, what is wanted dashed.
+std::optional<plot::Figure> overlay(const std::string& got, const std::string& want,
+                                    const compare::FileComparison& file) {
+  const record::Table left = record::read_csv(got), right = record::read_csv(want);
+  const auto both = [&](const char* name) { return left.find(name) >= 0 && right.find(name) >= 0; };
+  const compare::ColumnComparison* first = told_first(file);
+  std::string y = first != nullptr && compare::place_of(*first) < 2 ? first->name : "";
+  for (const char* curve : {"force_N", "strain", "stress_kPa"})
+    if (y.empty() && both(curve)) y = curve;
+  std::string x;
+  if (both("travel_mm") && y != "travel_mm" && rises(left, left.find("travel_mm")) &&
+      rises(right, right.find("travel_mm")))
+    x = "travel_mm";
+  else if (both("time_s"))
+    x = "time_s";
+  if (x.empty() || y.empty()) return std::nullopt;
+  std::vector<std::string> cases;
+  if (const int at = left.find("case"); at >= 0)
+    for (const auto& row : left.rows)
+      if (const auto* name = std::get_if<std::string>(&row[as_index(at)]);
+          name != nullptr && std::find(cases.begin(), cases.end(), *name) == cases.end())
+        cases.push_back(*name);
+  constexpr std::size_t most = 3;
+  if (cases.size() > most)  // the worst one
+    cases = {first != nullptr && !first->worst->case_name.empty() ? first->worst->case_name
+                                                                  : cases.front()};
+  if (cases.empty()) cases = {""};
+  plot::Figure figure{.name = "overlay",
+                      .title = file.file,
+                      .x_label = x,
+                      .y_label = y,
+                      .from_zero = y == "force_N"};
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (const bool wanted : {false, true})
+      figure.series.push_back(
+          {.csv_file = fs::absolute(wanted ? want : got).string(),
+           .case_name = cases[i],
+           .x_column = x,
+           .y_column = y,
+           .label = (cases[i].empty() ? "" : cases[i] + ", ") + (wanted ? "wanted" : "got"),
+           .colour = 2 * i + (wanted ? 1 : 0),
+           .dashed = wanted});
+  return figure;
+}
+
+// The overlays of all files, drawn in a folder beside the page that is gone afterwards.
+page::Markup overlays(const Compare& command, const compare::FolderComparison& comparison,
+                      const Talk& talk) {
+  const bool folders = fs::is_directory(command.want);
+  const std::string folder = command.report + ".partial";
+  page::Markup all;
+  for (const compare::FileComparison& file : comparison.files) {
+    if (file.state != compare::FileComparison::State::compared) continue;
+    const auto at = [&](const std::string& root) {
+      return folders ? root + "/" + file.file : root;
+    };
+    const auto figure = overlay(at(command.got), at(command.want), file);
+    if (!figure) continue;
+    make_folders(folder);
+    const plot::Drawing drawing = plot::draw(plot::sheet_of(*figure), folder);
+    if (!drawing.warning.empty()) talk.warn(drawing.warning);
+    const std::string caption =
+        figure->y_label + " against " + figure->x_label + " in " + file.file +
+        (file.equal() ? ": both agree." : ": the line was got, the dashed line is wanted.");
+    const fs::path picture = fs::path(folder) / "overlay.svg";
+    if (fs::exists(picture)) {
+      const page::Markup svg =
+          page::inline_svg(read_text(picture.string()), page::id_of(file.file), caption);
+      all += page::element("figure", page::element("div", svg, {{"class", "sheet plot"}}) +
+                                         page::element("figcaption", caption));
+    }
+    fs::remove_all(folder);
+  }
+  return all;
+}
+
+std::string cell_text(const record::Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return rounded_text(*number, 4);
+  const auto* word = std::get_if<std::string>(&cell);
+  return word == nullptr ? "nothing" : "`" + *word + "`";
+}
+
+void write_page(const Compare& command, const compare::FolderComparison& comparison,
+                const Talk& talk) {
   const std::string got = fs::path(command.got).filename().string();
   const std::string want = fs::path(command.want).filename().string();
-  page::Page page(got + " compared with " + want, "comparison");
-  page::Markup tables;
-  std::size_t differing = 0;
+  page::Page page(got == want ? got + ", got and wanted" : got + " compared with " + want,
+                  "comparison");
+  page::Markup differing, agreeing;
+  std::vector<std::string> alone;
+  const compare::ColumnComparison* worst = nullptr;
+  std::size_t columns = 0, all = 0;
   for (const compare::FileComparison& file : comparison.files) {
-    if (!file.equal()) ++differing;
-    if (file.state == compare::FileComparison::State::compared)
-      tables += table_of(file.file, file.comparison);
-    else
-      tables += page::element("p", file.file + " is in one of the two folders only.");
+    if (file.state != compare::FileComparison::State::compared) {
+      alone.push_back("`" + file.file + "`: " + compare::verdict_text(file.state));
+      continue;
+    }
+    differing += table_of(file, true);
+    agreeing += table_of(file, false);
+    const compare::ColumnComparison* first = told_first(file);
+    if (first != nullptr &&
+        (worst == nullptr || compare::place_of(*first) < compare::place_of(*worst)))
+      worst = first;
+    for (const compare::ColumnComparison& column : file.comparison.columns) {
+      ++all;
+      if (!column.equal()) ++columns;
+    }
   }
-  page.answer({comparison.equal()
-                   ? "Everything agrees within the tolerances."
-                   : std::to_string(differing) + " of " + std::to_string(comparison.files.size()) +
-                         " files differ by more than the tolerances."});
-  page.section("Columns", tables);
-  make_folders(std::filesystem::path(command.report).parent_path().string());
+  const std::string count = std::to_string(columns) + " of " + std::to_string(all) + " columns";
+  if (comparison.equal()) {
+    page.headline("Agrees", "in all " + std::to_string(all) + " columns");
+  } else if (worst == nullptr) {
+    page.headline("Differs", "in its files, columns or rows");
+  } else {
+    page.headline(rounded_text(100.0 * worst->worst->relative, 3) + " %",
+                  "largest difference of " + worst->name);
+    const compare::WorstRow& row = *worst->worst;
+    page.answer({count + " differ by more than the tolerances, `" + worst->name + "` in " +
+                 std::to_string(worst->differing) + " rows; most" +
+                 (row.x_name.empty() ? "" : " at " + row.x_name + " " + cell_text(row.x)) +
+                 ", where " + cell_text(row.got) + " was got and " + cell_text(row.want) +
+                 " is wanted."});
+  }
+  page.answer(alone);
+  page.section("Curves", overlays(command, comparison, talk));
+  page.section("What differs", differing);
+  page.section("What agrees", agreeing, page::Page::Shown::folded);
+  make_folders(fs::path(command.report).parent_path().string());
   write_atomically(command.report, page.html());
 }
 
@@ -94,7 +231,7 @@ int perform(const Compare& command, const Arguments&, const Talk& talk) {
                             : compare::compare_tables(one_table(name, command.got),
                                                       one_table(name, command.want), tolerances)}};
   report_checks(checks, command.options, talk);
-  if (!command.report.empty()) write_page(command, checks.front().comparison);
+  if (!command.report.empty()) write_page(command, checks.front().comparison, talk);
   return checks.front().equal() ? exit_good : exit_different;
 }
 

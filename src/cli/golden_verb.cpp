@@ -180,6 +180,7 @@ int add(const Golden& command, const Talk& talk) {
     keep(compute(kept.scenario, worker_count(command.jobs)), kept.expected);
     if (!command.reason.empty())
       write_atomically(kept.baseline, baseline_text(command.reason, commits[i]));
+    talk.event("kept", {{"scenario", kept.scenario}, {"expected", kept.expected}});
     talk.say(compare::one_line(kept.expected) + ": kept");
   }
   return exit_good;

@@ -81,6 +81,7 @@ int perform(const New& command, const Arguments&, const Talk& talk) {
       throw InputError({file, 0, 0}, "exists; give another name, or `--force` to replace it");
     make_folders(std::filesystem::path(file).parent_path().string());
     write_atomically(file, starter.text);
+    talk.event("wrote", {{"file", file}});
     talk.say(file + ": " + starter.word.meaning + "; `palpate run " + file + "` runs it");
   }
   return exit_good;

@@ -85,17 +85,18 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const record::Table& got, const record::Table& want,
                                  const Tolerances& tolerances);
 
-// Which columns a text lists: all of them, or those that differ.
-enum class Show { all, differing };
-
 // A name from a file as part of a line: it ends none, and is no command for a build server.
 [[nodiscard]] std::string one_line(const std::string& name);
 
-// One line per column with its worst row; each line ends with `\n`.
-[[nodiscard]] std::string comparison_text(const Comparison& comparison, Show show = Show::all);
+// One line per difference, a column with its worst row; each line ends with `\n`.
+[[nodiscard]] std::string comparison_text(const Comparison& comparison);
 // The part of the line after the column's name: what differs, where, and both values.
 [[nodiscard]] std::string verdict_text(const ColumnComparison& column);
 [[nodiscard]] std::string rows_text(const Comparison& comparison);  // the numbers of rows differ
+
+// The order in which columns are told: first what a curve is drawn of, `force_N`, `strain` and
+// `stress_kPa` (0), then other columns of curves (1), then the rest (2).
+[[nodiscard]] int place_of(const ColumnComparison& column);
 
 // Whether two cells are identical; NaN equals NaN.
 [[nodiscard]] bool same(const record::Cell& got, const record::Cell& want);

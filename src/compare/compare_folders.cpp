@@ -135,18 +135,27 @@ std::string verdict_text(FileComparison::State state) {
   return "compared";
 }
 
-std::string comparison_text(const FolderComparison& comparison, Show show) {
+std::string comparison_text(const FolderComparison& comparison) {
   std::string text;
   for (const FileComparison& file : comparison.files) {
-    if (show == Show::differing && file.equal()) continue;
+    if (file.equal()) continue;
     if (file.state != FileComparison::State::compared) {
       text += one_line(file.file) + ": " + verdict_text(file.state) + "\n";
       continue;
     }
-    text += one_line(file.file) + (file.comparison.equal() ? ": equal\n" : ": DIFFERS\n");
-    text += comparison_text(file.comparison, show);
+    text += one_line(file.file) + ": DIFFERS\n" + comparison_text(file.comparison);
   }
   return text;
+}
+
+std::string equal_text(const FolderComparison& comparison) {
+  std::size_t columns = 0;
+  for (const FileComparison& file : comparison.files)
+    for (const ColumnComparison& column : file.comparison.columns)
+      if (column.equal()) ++columns;
+  const std::size_t files = comparison.files.size();
+  return "equal: " + std::to_string(columns) + (columns == 1 ? " column" : " columns") +
+         (files == 1 ? "" : " of " + std::to_string(files) + " files") + "\n";
 }
 
 record::Table comparison_table(const FolderComparison& comparison) {

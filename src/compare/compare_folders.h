@@ -44,9 +44,10 @@ using Tables = std::map<std::string, std::function<record::Table()>>;
 [[nodiscard]] FolderComparison compare_folders(const std::string& got, const std::string& want,
                                                const Tolerances& tolerances);
 
-// The comparisons of all files, each below the file's name.
-[[nodiscard]] std::string comparison_text(const FolderComparison& comparison,
-                                          Show show = Show::all);
+// The differences of all files, each below the file's name.
+[[nodiscard]] std::string comparison_text(const FolderComparison& comparison);
+// How much is equal: `equal: 2 columns`, of several files with their number.
+[[nodiscard]] std::string equal_text(const FolderComparison& comparison);
 // What is said of a file that is in one of the folders only.
 [[nodiscard]] std::string verdict_text(FileComparison::State state);
 

@@ -1,6 +1,7 @@
 // Writes JUnit XML and GitHub's workflow commands.
 #include "compare/forge.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Item {
   std::string name = {};  // of the column
   std::string text = {};  // what is wrong
   std::size_t line = 0;   // in the wanted file; 0: unknown
+  int place = 2;          // among the differences
 };
 
 void add_columns(const FileComparison& file, std::vector<Item>& items) {
@@ -27,6 +29,7 @@ void add_columns(const FileComparison& file, std::vector<Item>& items) {
     if (item.state == Item::State::failed) item.text = verdict_text(column);
     // The header is line 1. In a tube the rows are not those of the wanted file.
     if (column.worst && file.comparison.rows_compared) item.line = column.worst->row + 1;
+    item.place = place_of(column);
     items.push_back(std::move(item));
   }
 }
@@ -123,16 +126,23 @@ std::string junit_text(std::span<const Check> checks) {
 
 std::string github_annotations(std::span<const Check> checks) {
   std::string text;
-  for (const Check& check : checks)
-    for (const Item& item : items_of(check)) {
-      if (item.state != Item::State::failed && item.state != Item::State::error) continue;
-      std::filesystem::path file(check.want);
-      if (!item.file.empty() && !check.one_file) file /= item.file;
-      text += "::error file=" + command_text(file.generic_string(), Part::property);
-      if (item.line > 0) text += ",line=" + std::to_string(item.line);
-      text += ",title=" + command_text("palpate: " + check.name, Part::property) +
-              "::" + command_text(place_text(item), Part::message) + "\n";
-    }
+  for (const Check& check : checks) {
+    std::vector<Item> bad = items_of(check);
+    std::erase_if(bad, [](const Item& item) {
+      return item.state == Item::State::good || item.state == Item::State::skipped;
+    });
+    if (bad.empty()) continue;
+    const Item& item = *std::min_element(
+        bad.begin(), bad.end(), [](const Item& a, const Item& b) { return a.place < b.place; });
+    std::filesystem::path file(check.want);
+    if (!item.file.empty() && !check.one_file) file /= item.file;
+    text += "::error file=" + command_text(file.generic_string(), Part::property);
+    if (item.line > 0) text += ",line=" + std::to_string(item.line);
+    const std::string more =
+        bad.size() == 1 ? "" : " (" + std::to_string(bad.size()) + " differences in all)";
+    text += ",title=" + command_text("palpate: " + check.name, Part::property) +
+            "::" + command_text(place_text(item) + more, Part::message) + "\n";
+  }
   return text;
 }
 

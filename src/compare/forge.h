@@ -25,8 +25,9 @@ struct Check {
 // case, with that error. Contains no time, so that the same comparison gives the same bytes.
 [[nodiscard]] std::string junit_text(std::span<const Check> checks);
 
-// One line per difference in the form of GitHub's workflow commands, `::error file=...`: the file
-// is the wanted one, the line that of the worst row. Each line ends with `\n`.
+// One line per check that is not equal, in the form of GitHub's workflow commands, `::error
+// file=...`: its first difference by place_of(), with the number of further ones. The file is the
+// wanted one, the line that of the worst row. Each line ends with `\n`.
 [[nodiscard]] std::string github_annotations(std::span<const Check> checks);
 
 }  // namespace palpate::compare

@@ -90,6 +90,14 @@ struct Sampler {
     return one_part(ellipsoid_surface(0.5 * ellipsoid.size, ellipsoid.size, spacing.outer));
   }
 
+  // A bar that is turned about x to stand on its end.
+  Body operator()(const Disc& disc) const {
+    Body body = one_part(sweep_of(Cylinder{disc.radius, disc.height}), spacing);
+    for (Vec3& v : body.parts.front().surface.vertices)
+      v = Vec3(v.x(), 2.0 * disc.radius - v.z(), v.y());
+    return body;
+  }
+
   template <class Bar>
   Body operator()(const Bar& bar) const {
     return one_part(sweep_of(bar), spacing);
@@ -125,6 +133,7 @@ struct Sampler {
 struct OuterSweep {
   std::optional<Sweep> operator()(const Cuboid&) const { return std::nullopt; }
   std::optional<Sweep> operator()(const Ellipsoid&) const { return std::nullopt; }
+  std::optional<Sweep> operator()(const Disc&) const { return std::nullopt; }
   template <class Bar>
   std::optional<Sweep> operator()(const Bar& bar) const {
     Sweep sweep = sweep_of(bar);
@@ -154,6 +163,11 @@ struct Onto {
     const Vec3 away = point - half;
     return {half + away / away.cwiseQuotient(half).norm(), 0};
   }
+  std::pair<Vec3, int> operator()(const Disc& disc) const {
+    const Vec3 axis(disc.radius, disc.radius, point.z());
+    const double distance = (point - axis).norm();
+    return {distance > 0.0 ? Vec3(axis + disc.radius / distance * (point - axis)) : point, 0};
+  }
   template <class Bar>
   std::pair<Vec3, int> operator()(const Bar& bar) const {
     const Sweep sweep = sweep_of(bar);
@@ -182,6 +196,9 @@ struct Extent {
     const double radius = std::max(bone.radius, bone.end_radius);
     return {2.0 * radius, bone.length, 2.0 * radius};
   }
+  Vec3 operator()(const Disc& disc) const {
+    return {2.0 * disc.radius, 2.0 * disc.radius, disc.height};
+  }
   Vec3 operator()(const LayeredLimb& limb) const {
     const double radius = std::max(limb.radius, limb.end_radius);
     return {2.0 * radius, limb.length, 2.0 * radius};
@@ -206,6 +223,12 @@ int nearest_surface(const Shape& shape, const Vec3& point) {
 }
 
 std::optional<Sweep> outer_sweep(const Shape& shape) { return std::visit(OuterSweep{}, shape); }
+
+int axis_of(const Shape& shape) { return std::holds_alternative<Disc>(shape) ? 2 : 1; }
+
+bool stands(const Shape& shape) {
+  return std::holds_alternative<Cuboid>(shape) || std::holds_alternative<Disc>(shape);
+}
 
 Vec3 extent(const Shape& shape) { return std::visit(Extent{}, shape); }
 
@@ -469,11 +492,14 @@ std::optional<ShapeTouch> touch_from_above(const Shape& shape, double x, double 
   if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape))
     return touch_ellipsoid(*ellipsoid, x, y, radius);
   if (const auto sweep = outer_sweep(shape)) return touch_sweep(*sweep, x, y, radius);
-  const Vec3 size = extent(shape);  // of a cuboid
-  const double past_x = std::max({0.0, -x, x - size.x()});
-  const double past_y = std::max({0.0, -y, y - size.y()});
-  if (std::hypot(past_x, past_y) >= radius) return std::nullopt;
-  if (past_x > 0.0 || past_y > 0.0) return on_edge();
+  const Vec3 size = extent(shape);
+  double past = 0.0;  // beyond the flat top
+  if (const auto* disc = std::get_if<Disc>(&shape))
+    past = std::max(0.0, std::hypot(x - disc->radius, y - disc->radius) - disc->radius);
+  else
+    past = std::hypot(std::max({0.0, -x, x - size.x()}), std::max({0.0, -y, y - size.y()}));
+  if (past >= radius) return std::nullopt;
+  if (past > 0.0) return on_edge();
   ShapeTouch touch;
   touch.position = {x, y, size.z()};
   return touch;

@@ -46,6 +46,13 @@ struct BoneShaft {
   double end_radius = 0.022;
 };
 
+// A round disc, standing: its axis is along z, its flat ends are at z = 0 and z = height. The
+// default is what a biopsy punch of 12 mm takes.
+struct Disc {
+  double radius = 0.006;
+  double height = 0.005;
+};
+
 // The upper leg: circular sections along y, slightly tapered, with a bone on its axis and skin all
 // around. Regions: 0 skin with the fat under it, 1 muscle, 2 bone; all extend to the flat end
 // faces. A region with thickness or radius 0 is left out.
@@ -57,7 +64,7 @@ struct LayeredLimb {
   double bone_radius = 0.016;
 };
 
-using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb>;
+using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb, Disc>;
 
 // The shape's closed surfaces with edges of about `spacing`. The vertices are on the shape, so that
 // the enclosed volume is slightly too small where the shape is round. Throws MeshError for a limb
@@ -73,8 +80,14 @@ using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, Lay
 [[nodiscard]] Vec3 onto(const Shape& shape, const Vec3& point, int surface);
 [[nodiscard]] int nearest_surface(const Shape& shape, const Vec3& point);
 
-// The outermost surface of a shape along y as a sweep; empty for a cuboid and an ellipsoid.
+// The outermost surface of a shape along y as a sweep; empty for other shapes.
 [[nodiscard]] std::optional<Sweep> outer_sweep(const Shape& shape);
+
+// The axis normal to the flat ends of a round shape, 0 to 2: y but for a disc.
+[[nodiscard]] int axis_of(const Shape& shape);
+// Whether the flat ends of a test between platens are those at the shape's bottom and top; bars
+// lie.
+[[nodiscard]] bool stands(const Shape& shape);
 
 // The size of the shape's bounding box along x, y and z, m.
 [[nodiscard]] Vec3 extent(const Shape& shape);

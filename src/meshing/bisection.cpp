@@ -185,7 +185,8 @@ TrueBoundary::TrueBoundary(const geometry::TetMesh& start, std::optional<geometr
       nodes_(start.nodes),
       skin_(geometry::skin(start).surface),
       on_skin_(start.nodes.size()) {
-  if (shape_) length_ = geometry::extent(*shape_).y();
+  if (shape_) axis_ = geometry::axis_of(*shape_);
+  if (shape_) length_ = geometry::extent(*shape_)[axis_];
   if (shape_ && std::holds_alternative<geometry::Cuboid>(*shape_)) shape_.reset();
   const std::vector<int> outer = geometry::skin(start).nodes;
   for (std::size_t v = 0; v < outer.size(); ++v)
@@ -196,7 +197,9 @@ TrueBoundary::TrueBoundary(const geometry::TetMesh& start, std::optional<geometr
 bool TrueBoundary::on_end(const Bisection::Middle& edge) const {
   const double close = 1e-9 * length_;
   for (const double end : {0.0, length_}) {
-    const auto lies = [&](int node) { return std::abs(nodes_[as_index(node)].y() - end) <= close; };
+    const auto lies = [&](int node) {
+      return std::abs(nodes_[as_index(node)][axis_] - end) <= close;
+    };
     if (lies(edge.a) && lies(edge.b) && std::all_of(edge.outer.begin(), edge.outer.end(), lies))
       return true;
   }

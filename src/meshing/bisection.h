@@ -104,6 +104,7 @@ class TrueBoundary {
   geometry::SmoothSurface skin_;
   std::vector<OnSkin> on_skin_;  // per node
   double length_ = 0.0;          // m, of the shape along y
+  int axis_ = 1;                 // normal to its flat ends
 };
 
 // The mesh with no edge across the plane at height z (m), or no edge of its boundary. A node that

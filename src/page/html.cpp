@@ -75,13 +75,18 @@ Markup paragraphs(const std::vector<std::string>& sentences) {
 
 namespace {
 
-Markup cell(const record::Cell& value, bool heading) {
-  if (const auto* number = std::get_if<double>(&value))
-    return element(heading ? "th" : "td", plot::tick_text(*number, 4),
-                   heading ? Attributes{{"scope", "row"}} : Attributes{{"class", "number"}});
-  const auto* word = std::get_if<std::string>(&value);
+// `column` names the value where the table's head has no place.
+Markup cell(const record::Cell& value, bool heading, const std::string& column) {
   Attributes attributes;
-  if (heading) attributes.emplace_back("scope", "row");
+  if (heading)
+    attributes.emplace_back("scope", "row");
+  else
+    attributes.emplace_back("data-column", column);
+  if (const auto* number = std::get_if<double>(&value)) {
+    if (!heading) attributes.emplace_back("class", "number");
+    return element(heading ? "th" : "td", plot::tick_text(*number, 4), attributes);
+  }
+  const auto* word = std::get_if<std::string>(&value);
   constexpr std::size_t sentence = 50;  // letters; a column of such texts is not made narrow
   if (word != nullptr && word->size() > sentence) attributes.emplace_back("class", "words");
   return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word, attributes);
@@ -96,7 +101,7 @@ Markup table(const std::string& caption, const record::Table& content) {
   Markup body;
   for (const auto& row : content.rows) {
     Markup cells;
-    for (std::size_t i = 0; i < row.size(); ++i) cells += cell(row[i], i == 0);
+    for (std::size_t i = 0; i < row.size(); ++i) cells += cell(row[i], i == 0, content.columns[i]);
     body += element("tr", cells) + Markup::ready("\n");
   }
   return element(

@@ -58,9 +58,11 @@ section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole svg, .cards svg { min-width: 0; } .whole .sheet::before, .cards .sheet::before { content: none; }
 .whole .words { min-width: 0; white-space: normal; } .answer td { white-space: nowrap; } .whole table { width: 100%; }
-@media screen and (max-width: 37rem) { .whole thead { display: none; }
-  .whole tr, .whole th, .whole td { display: block; } .whole tr { border-bottom: 1px solid var(--line); }
-  .whole th, .whole td { border: 0; padding: .1rem 0; text-align: left; } } footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
+@media screen and (max-width: 37rem) { .wide thead { display: none; }
+  .wide tr, .wide th, .wide td { display: block; } .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
+  .wide th, .wide td { border: 0; padding: .1rem 0; text-align: left; } .wide .words { min-width: 0; }
+  td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } }
+footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
@@ -79,18 +81,6 @@ namespace palpate::page {
 namespace {
 
 namespace fs = std::filesystem;
-
-// `How it was made` as `how-it-was-made`.
-std::string id_of(const std::string& heading) {
-  std::string id;
-  for (const char letter : heading) {
-    if (std::isalnum(static_cast<unsigned char>(letter)) != 0)
-      id += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    else if (!id.empty() && id.back() != '-')
-      id += '-';
-  }
-  return id;
-}
 
 Markup line() { return Markup::ready("\n"); }
 
@@ -116,6 +106,17 @@ std::string with_prefix(const std::string& svg, const std::string& prefix) {
 }
 
 }  // namespace
+
+std::string id_of(const std::string& heading) {
+  std::string id;
+  for (const char letter : heading) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0)
+      id += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    else if (!id.empty() && id.back() != '-')
+      id += '-';
+  }
+  return id;
+}
 
 Page::Page(std::string title, std::string kind)
     : title_(std::move(title)), kind_(std::move(kind)) {}

@@ -57,6 +57,9 @@ struct ShownFigure {
 [[nodiscard]] Markup all_figures(const WholeFolder& folder,
                                  const std::function<std::string(const std::string&)>& words);
 
+// `How it was made` as `how-it-was-made`.
+[[nodiscard]] std::string id_of(const std::string& heading);
+
 // A picture as part of the page: without prolog and size, with ids that begin with `prefix`, and
 // named for screen readers.
 [[nodiscard]] Markup inline_svg(const std::string& svg, const std::string& prefix,

@@ -326,6 +326,10 @@ std::string data_line(const Figure& figure, const Legend& legend, const KeptRows
   if (series.y_column.starts_with("measured_"))
     return kept.x_of(series) + kept.y_of(series) + ") with points linewidth 1.2 linecolor rgb '#" +
            look.colour + "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
+  if (series.dashed)
+    return kept.x_of(series) + kept.y_of(series) +
+           ") with lines linewidth 2 dashtype (7,4) linecolor rgb '#" + look.colour + "' title " +
+           gnuplot_quoted(label(series));
   return kept.x_of(series) + kept.y_of(series) + ") with linespoints linewidth " + width +
          " linecolor rgb '#" + look.colour + "'" + point_style(look.marker) +
          (figure.bar || legend.lines == 0 ? " notitle" : " title " + gnuplot_quoted(label(series)));

@@ -142,7 +142,8 @@ class Chooser {
                         scenario::upper_platen(asked_) == tissue::Base::bonded;
     const auto& shape = asked_.tissue.shape;
     const bool prism = std::holds_alternative<scenario::Cuboid>(shape) ||
-                       std::holds_alternative<scenario::Cylinder>(shape);
+                       std::holds_alternative<scenario::Cylinder>(shape) ||
+                       std::holds_alternative<scenario::Disc>(shape);
     // With a bonded end or several tissues the strain is uneven and nu matters; springs have 1/4.
     // Independent springs get the stiffness of a prism whatever the shape: measured on the
     // ligament (22 %) and the leg (40 %).

@@ -51,8 +51,8 @@ class Checker {
       problem("tissue.shape",
               std::string("`creep`, `relax` and `compress` need flat end faces, which ") +
                   (ellipsoid ? "an `ellipsoid`" : "a `half_space`") +
-                  " does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
-                  "`layered_limb`");
+                  " does not have; use `cuboid`, `disc`, `cylinder`, `ligament`, "
+                  "`bone_shaft` or `layered_limb`");
     Reached reached;
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
       const std::string path = "step." + std::to_string(i + 1);

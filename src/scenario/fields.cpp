@@ -262,6 +262,10 @@ static void fields(FieldVisitor& visitor, LayeredLimb& shape) {
   visitor.quantity({"skin_thickness", "Of region 0."}, shape.skin_thickness, unit::mm, above(0));
   visitor.quantity({"bone_radius", "Of region 2."}, shape.bone_radius, unit::mm, above(0));
 }
+static void fields(FieldVisitor& visitor, Disc& shape) {
+  visitor.quantity({"radius", "Of its round side."}, shape.radius, unit::mm, above(0));
+  visitor.quantity({"height", "Along z."}, shape.height, unit::mm, above(0));
+}
 static void fields(FieldVisitor& visitor, HalfSpace& shape) {
   visitor.quantity({"curvature", "Of the surface, convex positive; 0 is a flat."}, shape.curvature,
                    unit::per_metre, {});

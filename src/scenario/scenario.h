@@ -46,6 +46,11 @@ struct LayeredLimb : geometry::LayeredLimb {
       "layered_limb",
       "A tapered limb along y: region 0 is its skin, 1 the muscle inside, 2 the bone."};
 };
+struct Disc : geometry::Disc {
+  static constexpr Word word{"disc",
+                             "A round disc, standing, such as a biopsy punch takes; the finger "
+                             "presses its flat top, the sides are free."};
+};
 struct HalfSpace {
   static constexpr Word word{
       "half_space", "Infinite tissue with a flat, convex or concave surface; for `hertz` only."};
@@ -68,8 +73,8 @@ struct AsMeshed {
   static constexpr Word word{"as_meshed", "The shape of the ready mesh that `tissue.mesh` names."};
   std::string up = "z";  // as for a surface
 };
-using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb, HalfSpace,
-                           SurfaceFile, AsMeshed>;
+using Shape = std::variant<Cuboid, Cylinder, Ellipsoid, Ligament, BoneShaft, LayeredLimb, Disc,
+                           HalfSpace, SurfaceFile, AsMeshed>;
 
 // Whether, and how far, a mesh is refined where its own error in the force comes from.
 struct Refinement {

@@ -114,7 +114,8 @@ interval = "50 ms"
 )";
 
 constexpr std::string_view organ = R"(#:schema ./palpate.schema.json
-# A body with a stiff inclusion, pressed from above. Give your own surface or mesh in place of the ellipsoid:
+# A body with a stiff inclusion, pressed from above. Give your own surface or mesh in place of the ellipsoid,
+# or a punch of tissue, shape = { kind = "disc", radius = "6 mm", height = "5 mm" }:
 #   shape = { file = "organ.stl", unit = "mm" }      a closed surface: .stl .obj .ply .off
 #   mesh  = { file = "organ.msh", unit = "mm" }      tetrahedra: .msh of Gmsh, .node of TetGen; its
 #                                                    parts are `tagged` regions in place of the sphere

@@ -199,8 +199,7 @@ double uniform_ringing(const scenario::Resolved& scenario) {
     softest = std::min(softest, region.young_modulus);
     densest = std::max(densest, region.density);
   }
-  const bool stands_up = !std::holds_alternative<geometry::Cuboid>(*shape);  // for the test
-  const double height = geometry::extent(*shape)[stands_up ? 1 : 2];
+  const double height = geometry::extent(*shape)[geometry::stands(*shape) ? 2 : 1];
   const double frequency = 0.5 * std::numbers::pi / height * std::sqrt(softest / densest);
   const double periods = frequency * tissue.law.time;
   return 1.0 / std::max(1.0, periods * periods);
@@ -212,8 +211,7 @@ double bonded_stiffening(const scenario::Resolved& scenario, double poisson_rati
                    (scenario::upper_platen(scenario) == tissue::Base::bonded ? 1 : 0);
   if (!shape || ends == 0) return 1.0;
   Vec3 size = geometry::extent(*shape);
-  const bool stands_up = !std::holds_alternative<geometry::Cuboid>(*shape);  // for the test
-  if (stands_up) std::swap(size.y(), size.z());
+  if (!geometry::stands(*shape)) std::swap(size.y(), size.z());
   const double form = 0.25 * ends * size.x() * size.y() / (size.z() * (size.x() + size.y()));
   const double confined =
       (1.0 - poisson_ratio) / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));

@@ -225,6 +225,9 @@ std::optional<geometry::Shape> parametric(const scenario::Shape& shape) {
     std::optional<geometry::Shape> operator()(const scenario::LayeredLimb& s) const {
       return geometry::Shape(static_cast<const geometry::LayeredLimb&>(s));
     }
+    std::optional<geometry::Shape> operator()(const scenario::Disc& s) const {
+      return geometry::Shape(static_cast<const geometry::Disc&>(s));
+    }
     std::optional<geometry::Shape> operator()(const scenario::HalfSpace&) const { return {}; }
     std::optional<geometry::Shape> operator()(const scenario::SurfaceFile&) const { return {}; }
     std::optional<geometry::Shape> operator()(const scenario::AsMeshed&) const { return {}; }
@@ -288,8 +291,7 @@ SpecimenMesh specimen_mesh(const Scenario& scenario, const std::string& folder,
   geometry::TetMesh& mesh = made.mesh;
   if (!scenario.regions.empty() || !mesh.regions.empty()) number_regions(made, scenario);
   const auto shape = parametric(scenario.tissue.shape);
-  const bool lies = shape && !std::holds_alternative<geometry::Cuboid>(*shape);
-  if (scenario.uniform() && lies) stand_up(mesh);
+  if (scenario.uniform() && shape && !geometry::stands(*shape)) stand_up(mesh);
   return made;
 }
 

@@ -67,6 +67,8 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
     if (std::holds_alternative<geometry::Cylinder>(shape) ||
         std::holds_alternative<geometry::LayeredLimb>(shape))
       touch.to_edge = std::min(touch.position.y(), touch.size.y() - touch.position.y());
+    if (const auto* disc = std::get_if<geometry::Disc>(&shape))
+      touch.to_edge = disc->radius - std::hypot(x - disc->radius, y - disc->radius);
     if (const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape))
       for (const auto& [along, across] : scenario::finger_places(scenario, *box))
         touch.to_edge =

@@ -122,10 +122,11 @@ class Mesher {
   [[nodiscard]] int number_of(const std::array<int, 3>& triangle) const {
     if (std::holds_alternative<geometry::Cuboid>(*order_.shape)) return flat;
     if (std::holds_alternative<geometry::Ellipsoid>(*order_.shape)) return first_round;
-    const double length = geometry::extent(*order_.shape).y();
+    const int axis = geometry::axis_of(*order_.shape);
+    const double length = geometry::extent(*order_.shape)[axis];
     for (const double end : {0.0, length})
       if (std::all_of(triangle.begin(), triangle.end(), [&](int v) {
-            return std::abs(faces_.vertices[as_index(v)].y() - end) < 1e-9 * length;
+            return std::abs(faces_.vertices[as_index(v)][axis] - end) < 1e-9 * length;
           }))
         return flat;
     // All corners are on the surface; those at an end may be on two.

@@ -69,12 +69,18 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
   folder.write("failures.csv", record::csv_text(failure_table(map)));
   plot::draw(stability_sheet(title, map), folder, warnings);
   page::Page page("Stability of " + title, "stability map");
-  page.answer(map.sentences);
+  // The limit and the step that is taken; the rest is for a second look.
+  std::vector<std::string> more = map.sentences;
+  if (!more.empty()) {
+    page.answer({more.front()});
+    more.erase(more.begin());
+  }
   page.section(
       "Figure", page::all_figures(folder, [](const std::string&) {
         return "Longest stable time step over the model, each quantity of the scenario, and which "
                "failures were seen: theory as lines, measurements as points.";
       }));
+  page.section("In words", page::paragraphs(more), page::Page::Shown::folded);
   constexpr std::size_t most = 60;
   page.section("Limits", page::table_of_file("Limits of the time step, measured and by theory",
                                              limit_table(map), "stability.csv", most));

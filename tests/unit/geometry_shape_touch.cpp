@@ -140,6 +140,17 @@ TEST(AnEllipsoid, IsMissedBesideItsWidestSection) {
   EXPECT_NEAR(touch->curvature.normal.x(), 0.5, 1e-12);
 }
 
+TEST(ADisc, IsFlatOnItsRoundTopOnly) {
+  const Disc disc{0.010, 0.004};
+  const auto touch = touch_from_above(disc, 0.016, 0.017, 0.002);  // 9.2 mm from the axis
+  ASSERT_TRUE(touch.has_value());
+  EXPECT_FALSE(touch->on_edge);
+  EXPECT_EQ(touch->position, Vec3(0.016, 0.017, 0.004));
+  EXPECT_EQ(touch->curvature.kappa_1, 0.0);
+  EXPECT_TRUE(touch_from_above(disc, 0.018, 0.018, 0.002)->on_edge);      // 11.3 mm, in its square
+  EXPECT_FALSE(touch_from_above(disc, 0.019, 0.019, 0.002).has_value());  // 12.7 mm
+}
+
 TEST(ACuboid, IsFlatOnItsTopOnly) {
   EXPECT_EQ(touch_from_above(Cuboid{}, 0.01, 0.02, 0.011)->position, Vec3(0.01, 0.02, 0.03));
   EXPECT_TRUE(touch_from_above(Cuboid{}, -0.005, 0.02, 0.011)->on_edge);

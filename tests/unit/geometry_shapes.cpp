@@ -18,8 +18,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-const std::vector<Shape> shapes_given{Cuboid{},   Cylinder{},  Ellipsoid{},
-                                      Ligament{}, BoneShaft{}, LayeredLimb{}};
+const std::vector<Shape> shapes_given{Cuboid{},    Cylinder{},    Ellipsoid{}, Ligament{},
+                                      BoneShaft{}, LayeredLimb{}, Disc{}};
 
 Surface outer(const Shape& shape, double spacing) {
   return sampled(shape, {spacing, spacing}).parts.front().surface;
@@ -97,6 +97,7 @@ struct Volume {
         },
         b.length);
   }
+  double operator()(const Disc& d) const { return pi * d.radius * d.radius * d.height; }
   double operator()(const LayeredLimb& l) const {
     const double a = l.radius;
     const double b = l.end_radius;
@@ -125,8 +126,9 @@ TEST(Shapes, any_size_and_spacing_closes) {
     const double c = length();
     const double h = 1e-3 * *rc::gen::inRange(10, 300);
     for (const Shape& shape :
-         {Shape(Cylinder{a, c}), Shape(Ellipsoid{{a, b, c}}), Shape(Ligament{c, b, a}),
-          Shape(BoneShaft{c, a, b}), Shape(LayeredLimb{c, b, a, 0.3 * a, 0.4 * a})})
+         {Shape(Cylinder{a, c}), Shape(Disc{a, c}), Shape(Ellipsoid{{a, b, c}}),
+          Shape(Ligament{c, b, a}), Shape(BoneShaft{c, a, b}),
+          Shape(LayeredLimb{c, b, a, 0.3 * a, 0.4 * a})})
       for (const Part& part : sampled(shape, {h, 1.7 * h}).parts) {
         RC_ASSERT(like_a_ball(part.surface));
         RC_ASSERT(enclosed(part.surface).volume > 0.0);
@@ -148,8 +150,10 @@ TEST(Shapes, bounding_boxes_begin_at_the_origin) {
     EXPECT_LE((high - size).maxCoeff(), 1e-15);         // rounding
     EXPECT_LT(low.maxCoeff(), 0.02 * size.maxCoeff());  // between two vertices around
     EXPECT_LT((size - high).maxCoeff(), 0.02 * size.maxCoeff());
-    EXPECT_EQ(low.y(), shape.index() == 2 ? low.y() : 0.0);  // all but the ellipsoid end flat
-    EXPECT_EQ(high.y(), shape.index() == 2 ? high.y() : size.y());
+    if (std::holds_alternative<Ellipsoid>(shape)) continue;  // all others end flat
+    const int axis = axis_of(shape);
+    EXPECT_EQ(low[axis], 0.0);
+    EXPECT_EQ(high[axis], size[axis]);
   }
   EXPECT_EQ(outer(Ellipsoid{}, 0.02).vertices.front(), Vec3(0.077, 0.0995, 0.0));
 }
@@ -177,6 +181,16 @@ TEST(Shapes, vertices_lie_on_the_sides) {
   for (const Vec3& vertex : outer(head, 0.02).vertices)
     EXPECT_NEAR(((2.0 * vertex - head.size).cwiseQuotient(head.size)).norm(), 1.0,
                 1e-14);  // rounding
+}
+
+TEST(Shapes, a_disc_stands) {
+  const Disc disc{0.010, 0.004};
+  for (const Vec3& vertex : outer(disc, 0.001).vertices) {
+    const double from_axis = std::hypot(vertex.x() - 0.010, vertex.y() - 0.010);
+    if (vertex.z() > 0.0 && vertex.z() < 0.004) EXPECT_NEAR(from_axis, 0.010, 1e-15);  // rounding
+  }
+  const Vec3 there = onto(disc, {0.015, 0.010, 0.001});
+  EXPECT_NEAR((there - Vec3(0.020, 0.010, 0.001)).norm(), 0.0, 1e-15);  // rounding
 }
 
 TEST(Shapes, a_ligament_is_a_strap_with_round_edges) {

@@ -35,7 +35,8 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
       table("Forces", {{"case", "force"}, {{record::Cell("a"), 1.23456789}, {"b", {}}}}).html();
   for (const char* part :
        {"<caption>Forces</caption>", "<th scope=\"col\">force</th>", "<th scope=\"row\">a</th>",
-        "<td class=\"number\">1.235</td>", "<td>–</td>"})
+        "<td data-column=\"force\" class=\"number\">1.235</td>",
+        "<td data-column=\"force\">–</td>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   const record::Table long_one{{"n"}, {{1.0}, {2.0}, {3.0}}};
   const std::string cut = table_of_file("n", long_one, "n.csv", 2).html();
