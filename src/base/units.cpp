@@ -218,7 +218,8 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
     if (parsed) refuse(wanted, got() + ", " + dimension_name(parsed->dimension) + remedy);
     const auto near = nearest_unit(unit_text, wanted.dimension);
     const bool short_unit = unit_text.size() <= 100;
-    refuse(wanted, got() + " with " + (short_unit ? "the unknown unit `" + unit_text + "`" : "an unknown unit") +
+    refuse(wanted, got() + " with " +
+                       (short_unit ? "the unknown unit `" + unit_text + "`" : "an unknown unit") +
                        (near ? "; did you mean `" + digits + " " + *near + "`?" : remedy));
   }
   const double si = number->value / parsed->per * parsed->times;

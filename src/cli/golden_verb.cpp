@@ -28,15 +28,13 @@
 namespace palpate::cli {
 namespace {
 
-// A scenario with its kept results. Those of NAME.toml are in NAME.expected/ beside it, with their
-// tolerances in NAME.tolerances.toml and the reason of the last change in NAME.baseline.toml;
-// `scenario.toml`, which is called after its folder, has them in expected/, tolerances.toml and
-// baseline.toml.
+// A scenario with its kept results. Those of NAME.toml are in NAME.expected/ beside it, with the
+// reason of the last change in its baseline.toml and their tolerances in NAME.tolerances.toml;
+// `scenario.toml`, which is called after its folder, has them in expected/ and tolerances.toml.
 struct KeptResult {
   std::string scenario;    // path
   std::string expected;    // folder
   std::string tolerances;  // path of a file that need not exist
-  std::string baseline;    // likewise
 
   [[nodiscard]] static KeptResult of(const std::string& scenario);
   [[nodiscard]] bool is_kept() const;
@@ -64,8 +62,7 @@ KeptResult KeptResult::of(const std::string& scenario) {
   const std::string before = stem == "scenario" ? "" : stem + ".";
   return {.scenario = path.string(),
           .expected = (path.parent_path() / (before + "expected")).string(),
-          .tolerances = (path.parent_path() / (before + "tolerances.toml")).string(),
-          .baseline = (path.parent_path() / (before + "baseline.toml")).string()};
+          .tolerances = (path.parent_path() / (before + "tolerances.toml")).string()};
 }
 
 bool KeptResult::is_kept() const {
@@ -110,9 +107,10 @@ report::CsvFiles compute(const std::string& scenario, int workers) {
   return report::csv_files(family, records, fits);
 }
 
-// Writes the files into the folder, and removes CSV files there that are no longer written. Throws
-// SystemError.
-void keep(const report::CsvFiles& files, const std::string& folder) {
+// Writes the files and, if there is one, the text of baseline.toml into the folder, and removes CSV
+// files there that are no longer written and the reason of others. Throws SystemError.
+void keep(const report::CsvFiles& files, const std::string& baseline, const std::string& folder) {
+  constexpr const char* reason = "baseline.toml";
   for (const auto& [file, table] : files)
     if (const int at = table.find("outcome"); at >= 0)
       for (const auto& row : table.rows)
@@ -126,10 +124,12 @@ void keep(const report::CsvFiles& files, const std::string& folder) {
   make_folders(fresh);
   for (const auto& [file, table] : files)
     write_atomically(fresh + "/" + file, record::csv_text(table));
+  if (!baseline.empty()) write_atomically(fresh + "/" + reason, baseline);
   if (fs::exists(folder)) {
     for (const std::string& path : entries_of(folder))
-      if (!path.ends_with(".csv"))
-        fs::copy(path, fresh + "/" + fs::path(path).filename().string(),
+      if (const std::string name = fs::path(path).filename();
+          !name.ends_with(".csv") && name != reason)
+        fs::copy(path, fresh + "/" + name,
                  fs::copy_options::recursive | fs::copy_options::copy_symlinks);
     if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) {
       fs::remove_all(fresh);
@@ -177,9 +177,8 @@ int add(const Golden& command, const Talk& talk) {
         command.reason.empty() ? "" : commit_of(fs::path(scenario).parent_path().string()));
   for (std::size_t i = 0; i < command.subjects.size(); ++i) {
     const KeptResult kept = KeptResult::of(command.subjects[i]);
-    keep(compute(kept.scenario, worker_count(command.jobs)), kept.expected);
-    if (!command.reason.empty())
-      write_atomically(kept.baseline, baseline_text(command.reason, commits[i]));
+    keep(compute(kept.scenario, worker_count(command.jobs)),
+         command.reason.empty() ? "" : baseline_text(command.reason, commits[i]), kept.expected);
     talk.event("kept", {{"scenario", kept.scenario}, {"expected", kept.expected}});
     talk.say(compare::one_line(kept.expected) + ": kept");
   }

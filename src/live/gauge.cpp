@@ -64,8 +64,9 @@ class GaugeLoop {
     while (!over_) frame();
     loop_.health.end_of_samples(loop_.clock.now() - start_);
     note(LinkState::closed, Fault::none);
-    if (end_.why == LiveEnd::Why::done && rows_ == 0)
-      end_ = {LiveEnd::Why::link, "the force never reached the `start_force` of the settings"};
+    if (rows_ == 0 &&
+        (end_.why == LiveEnd::Why::done || (end_.why == LiveEnd::Why::too_long && !begun_)))
+      end_ = {LiveEnd::Why::link, never_begun()};
     return end_;
   }
 
@@ -110,6 +111,19 @@ class GaugeLoop {
     loop_.health.compute.add(device::wire_time() - begun);
   }
 
+  // The change of the force (N) with which the rows begin.
+  [[nodiscard]] double beginning() const {
+    return std::max(*limits_.start_force, 6.0 * rest_.deviation());
+  }
+
+  [[nodiscard]] std::string never_begun() const {
+    if (begun_ || beginning() <= *limits_.start_force)
+      return "the force never reached the `start_force` of the settings";
+    return "the force never rose by " + rounded_text(1e3 * beginning(), 3) +
+           " mN above that at rest, which is six times the noise of the gauge; press harder, or "
+           "use a quieter gauge";
+  }
+
   // The time of a sample (s), by the gauge's own clock if its lines have it.
   [[nodiscard]] static double time_of(const Sample& sample) {
     return std::isfinite(sample.device_time) ? sample.device_time : sample.received;
@@ -135,7 +149,7 @@ class GaugeLoop {
     }
     line_.add(-time, change);
     first_.push_back(sample);
-    if (change < std::max(least, 6.0 * noise)) return false;
+    if (change < beginning()) return false;
     tare_ = rest_.mean();
     if (std::abs(tare_) > told_tare * least)
       loop_.remarks.push_back("the gauge showed " + rounded_text(1e3 * tare_, 3) +

@@ -36,7 +36,9 @@ std::string failure(const ChildResult& result, const DrawOptions& options) {
     case ChildResult::End::exited: break;
   }
   if (result.code == 0) return {};
-  return program + "failed (" + trimmed(result.output) + ")";
+  const std::string said = trimmed(result.output);
+  return program + "failed " +
+         (said.empty() ? "with exit code " + std::to_string(result.code) : "(" + said + ")");
 }
 
 std::string remedy(const ChildResult& result, const std::string& script) {

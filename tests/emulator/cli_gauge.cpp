@@ -206,6 +206,24 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   EXPECT_NEAR(modulus->value, 12.0, 0.6);
 }
 
+// Noise that hides the press: the run ends when its time is up, and says what it waited for.
+TEST(GaugeRun, SaysThatNoiseHidesThePress) {
+  const TemporaryFolder folder;
+  std::string hand = read_file(project_file("scenarios/emulator/gauge_mark10.toml"));
+  const auto at = hand.find("noise ");
+  hand.replace(at, hand.find('\n', at) - at, "noise = \"600 mN\"");
+  const Gauge gauge{.style = "mark10",
+                    .settings = "mark10_gauge",
+                    .baud = "115200",
+                    .hand = folder.file("noisy.toml", hand)};
+  LiveEmulator emulator(emulator_of(gauge, folder / "log.csv"));
+  const Ended ended = palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"),
+                                              "--device", link_of(gauge, emulator), "--surface",
+                                              "-2 mm", "--clock", "virtual", "--seconds", "10"});
+  EXPECT_NE(ended.code, 0);
+  EXPECT_TRUE(has(ended.err, "which is six times the noise of the gauge")) << ended.err;
+}
+
 // By the machine's clock, interrupted after a second and a half.
 TEST(GaugeRun, PollsAreAsOftenAsTheRate) {
   const TemporaryFolder folder;

@@ -39,7 +39,7 @@ TEST_P(Golden, says_why_it_is_there_and_what_it_allows) {
   EXPECT_TRUE(scenario.starts_with("# Why: ")) << "begin the scenario with its reason";
   EXPECT_NE(scenario.find("\n# May differ: "), std::string::npos);
   EXPECT_FALSE(names_in(file("expected")).empty());
-  const Node baseline = read_toml(file("baseline.toml"));
+  const Node baseline = read_toml(file("expected/baseline.toml"));
   EXPECT_FALSE(trimmed(baseline.find("reason")->value.text).empty());
   EXPECT_EQ(baseline.find("commit")->value.text.size(), 40U);
   const compare::Tolerances tolerances = compare::read_tolerances(file("tolerances.toml"));

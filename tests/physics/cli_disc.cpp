@@ -34,8 +34,8 @@ TEST_F(ADiscOfTissue, yields_as_hooke_says_between_slippery_platens) {
            "[solver]\nmodel = \"coupled_springs\"\nintegrator = \"quasi_static\"\n"
            "[[step]]\nkind = \"compress\"\nstrain = 0.02\nrate = \"0.1 1/s\"\n",
            "strain_time.csv", "stress_kPa");
-  // Its end is a polygon of about 30 corners, with 0.7 % less than the circle's area; sections between
-  // two rings of points are rounder. Measured 0.2 %.
+  // Its end is a polygon of about 30 corners, with 0.7 % less than the circle's area; sections
+  // between two rings of points are rounder. Measured 0.2 %.
   EXPECT_NEAR(stress, 20.0 * 0.02, 0.007 * 20.0 * 0.02);
 }
 

@@ -41,7 +41,7 @@ class Reason : public testing::Test {
                         .set = environment});
   }
   [[nodiscard]] Node kept() const {
-    return read_toml((folder_ / "golden/press/baseline.toml").string());
+    return read_toml((folder_ / "golden/press/expected/baseline.toml").string());
   }
 
   TemporaryFolder folder_;
@@ -52,7 +52,8 @@ TEST_F(Reason, is_kept_with_commit_and_compiler) {
   const Ended ended = add("the first \"one\"");
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(names_in(folder_ / "golden/press/expected"),
-            (std::set<std::string>{"findings.csv", "fits.csv", "force_indentation.csv"}));
+            (std::set<std::string>{"baseline.toml", "findings.csv", "fits.csv",
+                                   "force_indentation.csv"}));
   const Node note = kept();
   EXPECT_EQ(note.find("reason")->value.text, "the first \"one\"");
   EXPECT_EQ(note.find("commit")->value.text, head);
@@ -71,6 +72,16 @@ TEST_F(Reason, files_that_are_no_longer_written_go) {
   write_file(folder_ / "golden/press/expected/strain_time.csv", "case\n");
   ASSERT_EQ(add("why").code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "golden/press/expected/strain_time.csv"));
+}
+
+// One folder is exchanged for the other, so that a kill leaves no reason beside the results of
+// another.
+TEST_F(Reason, is_that_of_the_results) {
+  ASSERT_EQ(add("why").code, 0);
+  ASSERT_EQ(
+      palpate(folder_.path(), {"golden", "add", "golden/press/scenario.toml", "--force"}).code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "golden/press/expected/baseline.toml"));
+  EXPECT_FALSE(fs::exists(folder_ / "golden/press/baseline.toml"));
 }
 
 TEST_F(Reason, not_by_a_machine) {

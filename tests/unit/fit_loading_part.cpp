@@ -214,13 +214,13 @@ TEST(LoadingPart, SeveralLoadingsAskForOne) {
   EXPECT_NEAR(second.parameters[0].estimate, 2.0, 1e-9);  // kPa, exact data
 }
 
-// Treloar's simple tension of rubber (1944), as Steinmann, Hossain and Possart print it (Arch. Appl.
-// Mech. 82, 2012), and what scipy 1.10 fits to it: tests/bench/fit_scipy.py.
+// Treloar's simple tension of rubber (1944), as Steinmann, Hossain and Possart print it (Arch.
+// Appl. Mech. 82, 2012), and what scipy 1.10 fits to it: tests/bench/fit_scipy.py.
 TEST(LoadingPart, TreloarsRubberAsScipyFitsIt) {
   const Rows rubber{{0.0,  0.01, 0.12, 0.24, 0.39, 0.61, 0.89, 1.17, 1.42, 2.01, 2.58, 3.03, 3.76,
                      4.36, 4.76, 5.16, 5.4,  5.62, 5.87, 6.05, 6.16, 6.27, 6.43, 6.5,  6.61},
-                    {0.0,   30e3,   140e3,  230e3,  320e3,  410e3,  500e3,  580e3, 670e3,
-                     850e3, 1040e3, 1210e3, 1580e3, 1940e3, 2290e3, 2670e3, 3020e3, 3390e3,
+                    {0.0,    30e3,   140e3,  230e3,  320e3,  410e3,  500e3,  580e3,  670e3,
+                     850e3,  1040e3, 1210e3, 1580e3, 1940e3, 2290e3, 2670e3, 3020e3, 3390e3,
                      3750e3, 4120e3, 4470e3, 4850e3, 5210e3, 5570e3, 6300e3}};
   const auto fitted = [&](UniaxialTest::Model model) {
     return fit_uniaxial(rubber.x, rubber.y,

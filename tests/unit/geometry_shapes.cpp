@@ -187,7 +187,9 @@ TEST(Shapes, a_disc_stands) {
   const Disc disc{0.010, 0.004};
   for (const Vec3& vertex : outer(disc, 0.001).vertices) {
     const double from_axis = std::hypot(vertex.x() - 0.010, vertex.y() - 0.010);
-    if (vertex.z() > 0.0 && vertex.z() < 0.004) EXPECT_NEAR(from_axis, 0.010, 1e-15);  // rounding
+    if (vertex.z() > 0.0 && vertex.z() < 0.004) {
+      EXPECT_NEAR(from_axis, 0.010, 1e-15);  // rounding
+    }
   }
   const Vec3 there = onto(disc, {0.015, 0.010, 0.001});
   EXPECT_NEAR((there - Vec3(0.020, 0.010, 0.001)).norm(), 0.0, 1e-15);  // rounding
