@@ -94,15 +94,10 @@ Eigen::VectorXd decaying(Eigen::Index blocks, Eigen::Index m, double time) {
   return found;
 }
 
-// The autocovariances of noise with the spectrum f^-power, which goes on for ten octaves below the
-// lowest frequency of the record: an instrument has run a thousand times as long. The slowest half
-// of them moves the whole record at once, which no residual shows.
+// The autocovariances of noise with the spectrum f^-power, which goes on for four octaves below the
+// lowest frequency of the record.
 Eigen::VectorXd flicker(Eigen::Index blocks, double power) {
   const Eigen::Index circle = 32 * blocks;  // lags repeat after so many
-  constexpr double lowest = 32.0 / 1024.0;
-  const auto integral = [&](double f) {
-    return power == 1.0 ? std::log(f) : std::pow(f, 1.0 - power) / (1.0 - power);
-  };
   const auto turn = [&](Eigen::Index i) {
     return 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(circle);
   };
@@ -110,9 +105,9 @@ Eigen::VectorXd flicker(Eigen::Index blocks, double power) {
   for (Eigen::Index i = 0; i < circle; ++i) cosines[i] = std::cos(turn(i));
   Eigen::VectorXd found = Eigen::VectorXd::Zero(blocks);
   for (Eigen::Index j = 0; j <= circle / 2; ++j) {
+    const double times = j == 0 || 2 * j == circle ? 1.0 : 2.0;
     const double spectrum =
-        j == 0 ? 2.0 * (integral(0.5) - integral(lowest))
-               : (2 * j == circle ? 1.0 : 2.0) * std::pow(static_cast<double>(j), -power);
+        times * std::pow(static_cast<double>(std::max<Eigen::Index>(j, 2)), -power);
     for (Eigen::Index k = 0; k < blocks; ++k) found[k] += spectrum * cosines[j * k % circle];
   }
   return found;

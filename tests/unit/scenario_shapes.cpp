@@ -104,7 +104,7 @@ TEST(Shapes, GoWithTheirMeshes) {
        "\"mm\" }`"},
       {shape("kind = \"sphere\""),
        "press.toml:5:18: `kind` does not know `sphere`; it is one of cuboid, cylinder, ellipsoid, "
-       "ligament, bone_shaft, layered_limb, half_space, file, as_meshed"},
+       "ligament, bone_shaft, layered_limb, disc, half_space, file, as_meshed"},
   });
   EXPECT_EQ(notes(press + shape("kind = \"cylinder\"") +
                   "mesh = { kind = \"tetgen\", edge = \"5 mm\", nodes = 500 }\n"),
@@ -136,7 +136,7 @@ TEST(Shapes, HalfSpaceHasNoMesh) {
   expect_refused(
       {{half,
         "press.toml:5:9: `creep`, `relax` and `compress` need flat end faces, which a `half_space` "
-        "does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
+        "does not have; use `cuboid`, `disc`, `cylinder`, `ligament`, `bone_shaft` or "
         "`layered_limb`"}},
       creep);
   EXPECT_EQ(notes(press + half + tetgen + "[solver]\nrings = 3\n"),
@@ -172,7 +172,7 @@ TEST(Shapes, WithoutFlatEndsDoNotCreep) {
   expect_refused(
       {{shape("kind = \"ellipsoid\""),
         "press.toml:5:9: `creep`, `relax` and `compress` need flat end faces, which an `ellipsoid` "
-        "does not have; use `cuboid`, `cylinder`, `ligament`, `bone_shaft` or "
+        "does not have; use `cuboid`, `disc`, `cylinder`, `ligament`, `bone_shaft` or "
         "`layered_limb`"}},
       creep);
   EXPECT_EQ(refusal(creep + shape("kind = \"bone_shaft\"")), "accepted");
