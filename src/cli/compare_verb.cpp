@@ -52,12 +52,12 @@ page::Markup table_of(const compare::FileComparison& file, bool differing) {
   return table.rows.empty() ? page::Markup() : page::table(file.file, table);
 }
 
-// The column of a file that differs first by place_of(); without a difference, the first curve.
+// The column of a file that differs first by rank_of(); without a difference, the first curve.
 const compare::ColumnComparison* told_first(const compare::FileComparison& file) {
   const compare::ColumnComparison* first = nullptr;
   for (const compare::ColumnComparison& column : file.comparison.columns)
     if (column.worst && !column.equal() &&
-        (first == nullptr || compare::place_of(column) < compare::place_of(*first)))
+        (first == nullptr || compare::rank_of(column) < compare::rank_of(*first)))
       first = &column;
   return first;
 }
@@ -80,7 +80,7 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
   const record::Table left = record::read_csv(got), right = record::read_csv(want);
   const auto both = [&](const char* name) { return left.find(name) >= 0 && right.find(name) >= 0; };
   const compare::ColumnComparison* first = told_first(file);
-  std::string y = first != nullptr && compare::place_of(*first) < 2 ? first->name : "";
+  std::string y = first != nullptr && compare::rank_of(*first) < 2 ? first->name : "";
   for (const char* curve : {"force_N", "strain", "stress_kPa"})
     if (y.empty() && both(curve)) y = curve;
   std::string x;
@@ -175,7 +175,7 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
     agreeing += table_of(file, false);
     const compare::ColumnComparison* first = told_first(file);
     if (first != nullptr &&
-        (worst == nullptr || compare::place_of(*first) < compare::place_of(*worst)))
+        (worst == nullptr || compare::rank_of(*first) < compare::rank_of(*worst)))
       worst = first;
     for (const compare::ColumnComparison& column : file.comparison.columns) {
       ++all;

@@ -266,7 +266,7 @@ std::string rows_text(const Comparison& comparison) {
          std::to_string(comparison.rows_want);
 }
 
-int place_of(const ColumnComparison& column) {
+int rank_of(const ColumnComparison& column) {
   if (!column.worst || column.worst->x_name.empty()) return 2;
   const std::array curves{"force_N", "strain", "stress_kPa"};
   return std::find(curves.begin(), curves.end(), column.name) != curves.end() ? 0 : 1;

@@ -96,7 +96,7 @@ struct Comparison {
 
 // The order in which columns are told: first what a curve is drawn of, `force_N`, `strain` and
 // `stress_kPa` (0), then other columns of curves (1), then the rest (2).
-[[nodiscard]] int place_of(const ColumnComparison& column);
+[[nodiscard]] int rank_of(const ColumnComparison& column);
 
 // Whether two cells are identical; NaN equals NaN.
 [[nodiscard]] bool same(const record::Cell& got, const record::Cell& want);

@@ -17,7 +17,7 @@ struct Item {
   std::string name = {};  // of the column
   std::string text = {};  // what is wrong
   std::size_t line = 0;   // in the wanted file; 0: unknown
-  int place = 2;          // among the differences
+  int rank = 2;           // among the differences
 };
 
 void add_columns(const FileComparison& file, std::vector<Item>& items) {
@@ -29,7 +29,7 @@ void add_columns(const FileComparison& file, std::vector<Item>& items) {
     if (item.state == Item::State::failed) item.text = verdict_text(column);
     // The header is line 1. In a tube the rows are not those of the wanted file.
     if (column.worst && file.comparison.rows_compared) item.line = column.worst->row + 1;
-    item.place = place_of(column);
+    item.rank = rank_of(column);
     items.push_back(std::move(item));
   }
 }
@@ -133,7 +133,7 @@ std::string github_annotations(std::span<const Check> checks) {
     });
     if (bad.empty()) continue;
     const Item& item = *std::min_element(
-        bad.begin(), bad.end(), [](const Item& a, const Item& b) { return a.place < b.place; });
+        bad.begin(), bad.end(), [](const Item& a, const Item& b) { return a.rank < b.rank; });
     std::filesystem::path file(check.want);
     if (!item.file.empty() && !check.one_file) file /= item.file;
     text += "::error file=" + command_text(file.generic_string(), Part::property);

@@ -26,7 +26,7 @@ struct Check {
 [[nodiscard]] std::string junit_text(std::span<const Check> checks);
 
 // One line per check that is not equal, in the form of GitHub's workflow commands, `::error
-// file=...`: its first difference by place_of(), with the number of further ones. The file is the
+// file=...`: its first difference by rank_of(), with the number of further ones. The file is the
 // wanted one, the line that of the worst row. Each line ends with `\n`.
 [[nodiscard]] std::string github_annotations(std::span<const Check> checks);
 
