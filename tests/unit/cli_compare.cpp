@@ -58,6 +58,24 @@ TEST_F(CompareVerb, a_report_for_a_build_server_goes_through_a_link) {
   EXPECT_NE(read_file(folder_ / "there/junit.xml").find("<testsuite"), std::string::npos);
 }
 
+// The page tells the curve first, and draws what is wanted dashed over what was got.
+TEST_F(CompareVerb, a_page_overlays_the_curves) {
+  const std::string head = "case,travel_mm,force_N\n";
+  write_file(folder_ / "got.csv", head + "skin,0,0\nskin,1,2\nskin,2,6\n");
+  write_file(folder_ / "want.csv", head + "skin,0,0\nskin,1,2\nskin,2,5\n");
+  const Ended ended =
+      palpate(folder_.path(), {"compare", "got.csv", "want.csv", "--report", "page.html"});
+  EXPECT_EQ(ended.code, 3) << ended.err;
+  const std::string page = read_file(folder_ / "page.html");
+  EXPECT_NE(page.find("largest difference of force_N"), std::string::npos);
+  const auto wanted = page.find("skin, wanted</text>");
+  ASSERT_NE(wanted, std::string::npos);
+  EXPECT_LT(page.find("skin, got</text>"), wanted);
+  EXPECT_GT(page.find("stroke-dasharray"), wanted);
+  EXPECT_NE(page.find("stroke-dasharray"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "page.html.partial"));
+}
+
 TEST_F(CompareVerb, within_a_tolerance) {
   const std::string tolerances = "[column.a_mm]\nrel = 0.01\nreason = \"a test\"\n";
   expect(compare("case,a_mm\nskin,1\nskin,2.01\nskin,4\n", base_, tolerances), 0,
