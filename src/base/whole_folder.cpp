@@ -27,6 +27,7 @@ using State = WholeFolder::State;
 // One line per file in the format of `sha256sum --check`; other lines start with `#`.
 constexpr const char* list_name = "contents.sha256";
 constexpr const char* aside_ending = ".old";  // of the old folder, on file systems without exchange
+constexpr int most_tries = 1000;  // to make a folder that others remove before its list is written
 
 // The folder's list: empty while a partial folder has nothing to keep, nullopt without a list.
 std::optional<std::string> list_of(const fs::path& folder) {
@@ -326,10 +327,10 @@ void WholeFolder::open() {
         opened_ = true;
         return;
       } catch (const SystemError&) {
-        // Another process may have removed the folder as abandoned; if it fails again, the disk is
-        // full.
-        fs::remove(partial_, error);
-        if (i > 4) throw;
+        // Another process may have removed the folder as abandoned. If it is there, and that again
+        // and again, the disk is full.
+        const bool was_there = fs::remove(partial_, error) || error;
+        if (i > (was_there ? 4 : most_tries)) throw;
       }
     partial_ = stem + "-" + std::to_string(i);
   }
