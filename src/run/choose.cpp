@@ -313,12 +313,13 @@ class Chooser {
     return std::max(least, used ? e.deep_error : std::abs(e.deep) + e.deep_error);
   }
 
-  // All of the effect where the model does not move.
+  // All of the effect where the model does not move, or its mesh does not carry the waves.
   [[nodiscard]] double of_waves(const Rung& rung, const Found& found) const {
     const auto& integrator = case_.scenario.solver.integrator;
     const bool moving = integrator ? about(*integrator).inertia : found.inertia_matters;
-    return (rung.inertia && moving && moves() ? rung.waves : 1.0) *
-           counted(choice_.expected.inertia);
+    const bool carried = rung.inertia && moving && moves() &&
+                         scene::carries_waves(asked_, choice_.touch, choice_.expected.contact_radius);
+    return (carried ? rung.waves : 1.0) * counted(choice_.expected.inertia);
   }
 
   // An effect of inertia that is left out. It counts from a fifth of the tolerance on, as depth and

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "mechanics/pressed_mesh.h"
 #include "meshing/bisection.h"
@@ -50,6 +51,26 @@ Estimate estimate(const scene::Scene& scene) {
   return sum;
 }
 
+// Tetrahedra near the places that are too large for the waves of a fast press: the marks of those
+// with an edge above `longest` (m) within four times that length.    docs/theory.md [wave_mesh]
+std::vector<char> too_large(const geometry::TetMesh& mesh, std::span<const Vec3> places,
+                            double longest) {
+  std::vector<char> marks(mesh.tetrahedra.size(), 0);
+  for (std::size_t t = 0; t < marks.size(); ++t) {
+    Vec3 middle = Vec3::Zero();
+    double edge = 0.0;
+    for (const int a : mesh.tetrahedra[t]) {
+      middle += 0.25 * mesh.nodes[as_index(a)];
+      for (const int b : mesh.tetrahedra[t])
+        edge = std::max(edge, (mesh.nodes[as_index(a)] - mesh.nodes[as_index(b)]).norm());
+    }
+    if (edge <= longest) continue;
+    for (const Vec3& place : places)  // no node is farther from the middle than 3/4 of the edge
+      if ((middle - place).norm() < 4.0 * longest + 0.75 * edge) marks[t] = 1;
+  }
+  return marks;
+}
+
 // Edges of half the length leave a quarter of a tetrahedron's error.
 constexpr double removed = 0.75;
 
@@ -75,7 +96,11 @@ class Refining {
  public:
   Refining(const scenario::Case& one, const scenario::Family& family,
            const scenario::Resolved& scenario, scene::SpecimenShapes& shapes)
-      : one_(one), family_(family), shapes_(&shapes), mesh_(&scenario.tissue.mesh) {
+      : one_(one),
+        family_(family),
+        shapes_(&shapes),
+        mesh_(&scenario.tissue.mesh),
+        longest_(scene::longest_for_waves(scenario)) {
     trial_.given = true;
     trial_.chosen = scene::refining_press(scenario);
     most_nodes_ = scenario::refinement(*mesh_).most_nodes;
@@ -102,6 +127,18 @@ class Refining {
       shape = scene::shape_of(std::move(mesh), base_level);
       shape.remark = std::move(remark);
     };
+    if (std::isfinite(longest_)) {
+      const scene::Scene scene = scene_with(shape);
+      std::vector<Vec3> places = finger_way(scene.scenario);
+      for (Vec3& place : places) place += scene::pressed_place(scene);
+      for (;;) {
+        const std::vector<char> marks = too_large(shape.mesh, places, longest_);
+        if (std::count(marks.begin(), marks.end(), 1) == 0) break;
+        auto finer = halved(shape.mesh, marks, boundary);
+        if (!finer) break;
+        take(std::move(*finer));
+      }
+    }
     for (int round = 0;; ++round) {
       const Estimate found = estimate(scene_with(shape));
       told.rounds = round;
@@ -154,6 +191,7 @@ class Refining {
   const scenario::Family& family_;
   scene::SpecimenShapes* shapes_;
   const scenario::Mesh* mesh_;
+  double longest_;  // m, near the finger, scene::longest_for_waves()
   scene::Choice trial_;
   int most_nodes_ = 0;
 };

@@ -85,7 +85,7 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .inertia = true,
      .uniform = true,
      .own_ratio = true,
-     .waves = 0.06,
+     .waves = 0.1,
      .uneven = 0.02,
      .cost = {.set_ups = 1.0}},
     {.of = Model::solid,

@@ -8,9 +8,12 @@
 
 #include "base/numerics.h"
 #include "contact/hertz.h"
+#include "contact/patch.h"
 #include "scenario/programme.h"
+#include "scene/refining_press.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
+#include "scene/time_plan.h"
 
 namespace palpate::scene {
 namespace {
@@ -43,13 +46,17 @@ double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration)
   return sum;
 }
 
+// m/s.
+double shear_speed(const scenario::Resolved::Tissue& tissue) {
+  return std::sqrt(tissue.young_modulus / (2.0 * (1.0 + tissue.poisson_ratio) * tissue.density));
+}
+
 // The radiation of a vibrating footing (Lysmer's analogue), pi a^2 rho c v with
 // c = 3.4 v_s / (pi (1 - nu)), over Hertz's force.
 double inertia_effect(const scenario::Resolved::Tissue& tissue, const contact::SphereLaw& law,
                       double travel, double rate) {
   const double nu = tissue.poisson_ratio;
-  const double shear_speed = std::sqrt(tissue.young_modulus / (2.0 * (1.0 + nu) * tissue.density));
-  const double speed = 3.4 * shear_speed / (std::numbers::pi * (1.0 - nu));
+  const double speed = 3.4 * shear_speed(tissue) / (std::numbers::pi * (1.0 - nu));
   const double force = contact::hertz::force(travel, law.radius, law.modulus);
   if (force <= 0.0) return 0.0;
   return std::numbers::pi * law.radius * travel * tissue.density * speed * rate / force;
@@ -93,6 +100,7 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   const double radius = several ? make_finger(scenario).sphere_radius : law.radius;
   const double bound = contact::depth_bound(found.tissue_share * found.travel, radius,
                                             softest_thickness(scenario, touch), ratio);
+  found.deep_bound = bound;
   if (flat && !several && !several_tissues(scenario) && found.edge == 0.0) {
     const contact::Layer layer = layers_of(scenario, found.tissue_share);
     found.depth_ratio = contact::depth_ratio({.radius = scenario.finger.radius,
@@ -181,6 +189,26 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
   found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);
   return found;
+}
+
+double longest_for_waves(const scenario::Resolved& scenario) {
+  const double rate = fastest_rate(scenario);
+  if (!(rate > 0.0) || !inertia_reaches_force(scenario)) return infinite;
+  const double time = deepest_travel(scenario, make_finger(scenario).whole) / rate;
+  const double longest = 0.5 * shear_speed(scenario.tissue) * time;
+  return std::exp2(std::floor(2.0 * std::log2(longest)) / 2.0);
+}
+
+bool carries_waves(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                   double contact_radius) {
+  if (contact::wide_semi_axes * contact_radius > std::min(touch.to_edge, touch.thickness))
+    return false;
+  if (refines(scenario)) return true;
+  double cell = std::cbrt(touch.size.prod() / expected_nodes(scenario.tissue.mesh));
+  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh))
+    for (int axis = 0; axis < 3; ++axis)
+      cell = std::max(cell, touch.size[axis] / kuhn->cells[as_index(axis)]);
+  return cell <= longest_for_waves(scenario);
 }
 
 double uniform_ringing(const scenario::Resolved& scenario) {

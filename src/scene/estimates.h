@@ -28,6 +28,7 @@ struct Estimates {
   double deep = 0.0;             // change in neo-Hookean tissue by `depth_ratio`; [deep]
   double deep_error = 0.0;       // of that, or a bound where there is none
   double viscous = 0.0;          // increase by the tissue's viscosity
+  double deep_bound = 0.0;       // of what large strains change
   double inertia = 0.0;          // increase by the waves that the contact radiates
   double curvature_ratio = 1.0;  // (1/R + kappa_1) / (1/R + kappa_2)
   std::optional<contact::DepthRatio> depth_ratio;  // of wide flat tissue of one kind
@@ -52,6 +53,17 @@ inline constexpr double refined_share = 0.5;
 
 // The error of its modulus by a mesh with the tissue's elasticity, relative.
 [[nodiscard]] double bonded_mesh_error(const scenario::Resolved& scenario);
+
+// The longest edge (m) of a mesh that still carries the waves of a fast press: half of the way of a
+// shear wave while the finger comes down at its fastest rate. Rounded down to a power of sqrt(2), so
+// that like presses share a mesh, and infinite where the tissue's inertia does not reach the force.
+//                                                                     docs/theory.md [wave_mesh]
+[[nodiscard]] double longest_for_waves(const scenario::Resolved& scenario);
+
+// Whether the mesh in motion represents the waves, as far as can be known before it is made: the
+// contact's wide patch lies within the body, and the mesh is refined for them or fine enough.
+[[nodiscard]] bool carries_waves(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                                 double contact_radius);
 
 // The number of nodes that the mesh will have, before it is refined; 1000 for a ready mesh, which
 // is not read here.

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "scenario/integrators.h"
+#include "scene/estimates.h"
 #include "scene/scene.h"
 
 namespace palpate::scene {
@@ -75,6 +76,7 @@ std::string refining_key(const Scenario& scenario) {
   add(press.finger.x.value_or(-1.0));
   add(press.finger.y.value_or(-1.0));
   add(press.solver.tolerance);
+  add(longest_for_waves(scenario));
   add(scenario.solver.integrator == scenario::Solver::Integrator::modal &&
               !scenario::lowest_modes_serve(scenario)
           ? 1.0

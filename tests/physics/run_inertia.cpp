@@ -1,6 +1,7 @@
 // A fast press with inertia against contact that a fine mesh resolves by itself.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,44 @@ TEST(Inertia, AFastPressMeetsWhatItsWavesTakeAway) {
   // The fall as the finger stops is the radiation, which statics knows nothing of.
   EXPECT_LT(record.contact[11].force, 0.96 * record.contact[10].force);
 }
+
+// Scenes 1, 12 and 0 of `tests/accuracy/fast_presses.py --seed 1`, and its forces in mN: the last
+// digit of each is not known.
+struct Fast {
+  const char* shape;
+  double youngs, poisson, density, radius, depth, rate, force, most;
+};
+
+class FastPresses : public testing::TestWithParam<Fast> {};
+
+TEST_P(FastPresses, StateWhatTheirMeshMissesOfTheWaves) {
+  const Fast& fast = GetParam();
+  const auto number = [](double value) { return std::to_string(value); };
+  const record::CaseRecord record = test::run_text(
+      "[tissue]\nyoung_modulus = \"" + number(fast.youngs) + " kPa\"\npoisson_ratio = " +
+      number(fast.poisson) + "\ndensity = \"" + number(fast.density) +
+      " kg/m^3\"\nviscosity = \"none\"\nshape = " + fast.shape +
+      "\n[finger]\nmaterial = \"rigid\"\nradius = \"" + number(fast.radius) +
+      " mm\"\n[[step]]\nkind = \"indent\"\nto = \"" + number(fast.depth) +
+      " mm\"\nrate = \"" + number(fast.rate) +
+      " mm/s\"\n[output]\ninterval = \"0.2 ms\"\npressure_maps = false\n");
+  ASSERT_EQ(record.outcome, record::Outcome::completed);
+  const double off = std::abs(1e3 * record.contact.back().force / fast.force - 1.0);
+  EXPECT_LT(off, test::found(record, "stated_error") + 0.012);
+  EXPECT_LT(off, fast.most);
+}
+
+// On the mesh of 140 nodes that statics asks for they were 9.1 and 13.4 % off, with 2.3 and 2.9 %
+// stated. Under the last, the wide patch is as large as the disc: the effect of inertia is stated.
+INSTANTIATE_TEST_SUITE_P(
+    All, FastPresses,
+    testing::Values(
+        Fast{"{ kind = \"cuboid\", size = [\"41.7414 mm\", \"41.7414 mm\", \"16.0544 mm\"] }",
+             51.9793, 0.3057, 1148.02, 7.9787, 0.9777, 185.2222, 251.4, 0.03},
+        Fast{"{ kind = \"cuboid\", size = [\"43.3888 mm\", \"43.3888 mm\", \"16.688 mm\"] }",
+             13.509, 0.3133, 1061.47, 7.4495, 1.1274, 164.4765, 82.74, 0.05},
+        Fast{"{ kind = \"disc\", radius = \"16.1512 mm\", height = \"12.3908 mm\" }", 12.5538,
+             0.4042, 1175.9, 13.592, 2.1325, 559.6017, 498.8, 0.5}));
 
 }  // namespace
 }  // namespace palpate
