@@ -272,7 +272,7 @@ class Chooser {
     const double body = rung.meshed() ? of_mesh(rung) : of_size(rung);
     return body + of_waves(rung, found) +
            (contact::mesh_is_tissue(asked_.contact.coupling) ? 0.0 : e.edge) + e.ball +
-           of_depth(found);
+           of_depth(rung, found);
   }
 
   // The part of it that the mesh causes; 0 without one. Where the mesh is refined, what refining
@@ -301,25 +301,33 @@ class Chooser {
     return std::abs(1.0 / (1.0 + change) - 1.0) + e.size_error;
   }
 
-  // What the depth leaves open: the error of its factor, or the effect that is left out. At least
-  // 0.1 %, for a contact that is never quite as small as a contact law assumes.
-  [[nodiscard]] double of_depth(const Found& found) const {
+  // What the depth leaves open: the error of its factor, or the effect that is left out. The factor
+  // is of statics; of what waves add to the force, the bound is open. At least 0.1 %, for a contact
+  // that is never quite as small as a contact law assumes.
+  [[nodiscard]] double of_depth(const Rung& rung, const Found& found) const {
     using Depth = scenario::Contact::Depth;
     constexpr double least = 1e-3;
     const Estimates& e = choice_.expected;
     const auto depth = case_.scenario.contact.depth.value_or(
         found.depth_matters ? Depth::neo_hookean : Depth::hertz);
     const bool used = depth == Depth::neo_hookean && has_depth_ratio();
-    return std::max(least, used ? e.deep_error : std::abs(e.deep) + e.deep_error);
+    const double waves = computes_waves(rung, found) ? e.inertia : 0.0;
+    const double in_waves = e.depth_ratio ? waves / (1.0 + waves) * e.deep_bound : 0.0;
+    return std::max(least, (used ? 0.0 : std::abs(e.deep)) + e.deep_error + in_waves);
   }
 
   // All of the effect where the model does not move, or its mesh does not carry the waves.
   [[nodiscard]] double of_waves(const Rung& rung, const Found& found) const {
+    const bool carried =
+        computes_waves(rung, found) &&
+        scene::carries_waves(asked_, choice_.touch, choice_.expected.contact_radius);
+    return (carried ? rung.waves : 1.0) * counted(choice_.expected.inertia);
+  }
+
+  [[nodiscard]] bool computes_waves(const Rung& rung, const Found& found) const {
     const auto& integrator = case_.scenario.solver.integrator;
     const bool moving = integrator ? about(*integrator).inertia : found.inertia_matters;
-    const bool carried = rung.inertia && moving && moves() &&
-                         scene::carries_waves(asked_, choice_.touch, choice_.expected.contact_radius);
-    return (carried ? rung.waves : 1.0) * counted(choice_.expected.inertia);
+    return rung.inertia && moving && moves();
   }
 
   // An effect of inertia that is left out. It counts from a fifth of the tolerance on, as depth and
