@@ -55,7 +55,8 @@ inline constexpr double refined_share = 0.5;
 [[nodiscard]] double bonded_mesh_error(const scenario::Resolved& scenario);
 
 // The longest edge (m) of a mesh that still carries the waves of a fast press: half of the way of a
-// shear wave while the finger comes down at its fastest rate. Rounded down to a power of sqrt(2), so
+// shear wave while the finger comes down at its fastest rate, or the contact's radius if that is
+// longer, since the load is spread over three of them. Rounded down to a power of sqrt(2), so
 // that like presses share a mesh, and infinite where the tissue's inertia does not reach the force.
 //                                                                     docs/theory.md [wave_mesh]
 [[nodiscard]] double longest_for_waves(const scenario::Resolved& scenario);
