@@ -50,13 +50,12 @@ TEST_P(FastPresses, StateWhatTheirMeshMissesOfTheWaves) {
   const Fast& fast = GetParam();
   const auto number = [](double value) { return std::to_string(value); };
   const record::CaseRecord record = test::run_text(
-      "[tissue]\nyoung_modulus = \"" + number(fast.youngs) + " kPa\"\npoisson_ratio = " +
-      number(fast.poisson) + "\ndensity = \"" + number(fast.density) +
+      "[tissue]\nyoung_modulus = \"" + number(fast.youngs) +
+      " kPa\"\npoisson_ratio = " + number(fast.poisson) + "\ndensity = \"" + number(fast.density) +
       " kg/m^3\"\nviscosity = \"none\"\nshape = " + fast.shape +
       "\n[finger]\nmaterial = \"rigid\"\nradius = \"" + number(fast.radius) +
-      " mm\"\n[[step]]\nkind = \"indent\"\nto = \"" + number(fast.depth) +
-      " mm\"\nrate = \"" + number(fast.rate) +
-      " mm/s\"\n[output]\ninterval = \"0.2 ms\"\npressure_maps = false\n");
+      " mm\"\n[[step]]\nkind = \"indent\"\nto = \"" + number(fast.depth) + " mm\"\nrate = \"" +
+      number(fast.rate) + " mm/s\"\n[output]\ninterval = \"0.2 ms\"\npressure_maps = false\n");
   ASSERT_EQ(record.outcome, record::Outcome::completed);
   const double off = std::abs(1e3 * record.contact.back().force / fast.force - 1.0);
   EXPECT_LT(off, test::found(record, "stated_error") + 0.012);
