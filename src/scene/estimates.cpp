@@ -196,9 +196,8 @@ double longest_for_waves(const scenario::Resolved& scenario) {
   if (!(rate > 0.0) || !inertia_reaches_force(scenario)) return infinite;
   const contact::SphereLaw law = make_finger(scenario).whole;
   const double travel = deepest_travel(scenario, law);
-  const double longest =
-      std::max(0.5 * shear_speed(scenario.tissue) * travel / rate,
-               contact::hertz::contact_radius(travel, law.radius));
+  const double longest = std::max(0.5 * shear_speed(scenario.tissue) * travel / rate,
+                                  contact::hertz::contact_radius(travel, law.radius));
   return std::exp2(std::floor(2.0 * std::log2(longest)) / 2.0);
 }
 
