@@ -465,8 +465,8 @@ class UniaxialFit {
     if (test_.model == Model::ogden3 && fit_.termination != Termination::failed) add_modulus();
   }
 
-  // The norm of one of Ogden's powers over the rows, with the sign of its exponent. The search takes
-  // each power divided by it: mu_k itself changes by decades where alpha_k changes a little.
+  // The norm of one of Ogden's powers over the rows, with the sign of its exponent. The search
+  // takes each power divided by it: mu_k itself changes by decades where alpha_k changes a little.
   [[nodiscard]] double size_of_power(double alpha) const {
     Eigen::VectorXd power(static_cast<Eigen::Index>(stretch_.size()));
     for (std::size_t i = 0; i < stretch_.size(); ++i)
