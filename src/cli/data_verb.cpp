@@ -210,6 +210,30 @@ std::string contact_lines(const measured::MeasuredCurve& curve, std::string& pla
   }
 }
 
+// The curve of the columns asked for. A length that stays over most rows is that of a hold, whose
+// curve is one over time.
+measured::MeasuredCurve guessed_curve(const Data& command) {
+  measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
+  const double at = curve.x.empty() ? 0.0 : curve.x.back();
+  const auto stays = std::count_if(curve.x.begin(), curve.x.end(), [at](double x) {
+    return std::abs(x - at) <= 0.01 * std::abs(at);
+  });
+  if (!command.columns.x.empty() || !(curve.x_axis.dimension == unit::mm.dimension) ||
+      2 * as_index(stays) <= curve.x.size())
+    return curve;
+  DataOptions over_time = command.columns;
+  over_time.curve = DataOptions::Curve::relaxation;
+  over_time.compression.clear();  // a load that relaxes is not one that grows downwards
+  try {
+    measured::MeasuredCurve held = measured::read_measured(command.data, over_time);
+    held.notes.push_back("`" + curve.x_axis.column + "` stays over " + std::to_string(stays) +
+                         " of " + std::to_string(curve.x.size()) + " rows, as in a hold");
+    return held;
+  } catch (const InputError&) {  // no column of times
+    return curve;
+  }
+}
+
 // What to type next for the dimensions of the two columns.
 std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
                       const std::string& platens) {
@@ -268,7 +292,7 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
   text += segment_lines(table, talk);
   std::string platens;
   try {
-    const measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
+    const measured::MeasuredCurve curve = guessed_curve(command);
     text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
     talk.event("curve", {{"x", curve.x_axis.column}, {"y", curve.y_axis.column}});
     for (const std::string& sentence : curve.notes)

@@ -266,9 +266,8 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
     for (double& each : strain) each -= 1.0;
     const auto far = [](double one, double other) { return std::abs(one) < std::abs(other); };
     const double most = *std::max_element(strain.begin(), strain.end(), far);
-    if (test.loading == fit::UniaxialTest::Loading::unknown)  // of stretches the sign tells
-      test.loading = most < 0.0 ? fit::UniaxialTest::Loading::compression
-                                : fit::UniaxialTest::Loading::tension;
+    if (test.loading == fit::UniaxialTest::Loading::unknown && most > 0.0)
+      test.loading = fit::UniaxialTest::Loading::tension;  // of stretches the sign tells
   }
   if (curve.x_axis.dimension == unit::mm.dimension) {
     if (command.height.empty())

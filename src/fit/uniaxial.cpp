@@ -437,9 +437,12 @@ class UniaxialFit {
     curve.starts = starts(terms, powers);
     if (test_.model == Model::ogden3) curve.minima = 24;  // its squares have several minima
     curve.columns = [&](std::span<const double> alpha, std::span<double> phi) {
-      for (std::size_t i = 0; i < stretch_.size(); ++i)
-        for (std::size_t k = 0; k < terms; ++k)
-          phi[i * terms + k] = sign * term(test_.model, stretch_[i], k, powers ? alpha[k] : 0.0);
+      for (std::size_t k = 0; k < terms; ++k) {
+        const double size = test_.model == Model::ogden3 ? size_of_power(alpha[k]) : 1.0;
+        for (std::size_t i = 0; i < stretch_.size(); ++i)
+          phi[i * terms + k] =
+              sign * term(test_.model, stretch_[i], k, powers ? alpha[k] : 0.0) / size;
+      }
       return true;
     };
     const char* first = test_.model == Model::ogden3 ? "mu_1" : "E";
@@ -462,25 +465,49 @@ class UniaxialFit {
     if (test_.model == Model::ogden3 && fit_.termination != Termination::failed) add_modulus();
   }
 
-  // E = 3/2 sum mu_k alpha_k, before the terms, which determine it better than each other.
+  // The norm of one of Ogden's powers over the rows, with the sign of its exponent. The search
+  // takes each power divided by it: mu_k itself changes by decades where alpha_k changes a little.
+  [[nodiscard]] double size_of_power(double alpha) const {
+    Eigen::VectorXd power(static_cast<Eigen::Index>(stretch_.size()));
+    for (std::size_t i = 0; i < stretch_.size(); ++i)
+      power[static_cast<Eigen::Index>(i)] = term(test_.model, stretch_[i], 0, alpha);
+    return std::copysign(power.stableNorm(), alpha);
+  }
+
+  // From the factors c_k of the search mu_k = c_k / size, and E = 3/2 sum mu_k alpha_k, before the
+  // terms, which determine it better than each other. d mu_k = (d c_k - c_k d ln size) / size.
   void add_modulus() {
-    Estimate young{.name = "E", .unit = "kPa", .estimate = 0.0};
-    const auto value = [&](std::size_t i) { return fit_.parameters[i].estimate; };
-    std::array<double, 6> slope{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      young.estimate += 1.5 * value(k) * value(3 + k);
-      slope[k] = 1.5 * value(3 + k);
-      slope[3 + k] = 1.5 * value(k);
-    }
-    double variance = fit_.covariance.empty() ? Estimate::unknown : 0.0;
-    for (std::size_t i = 0; i < 6 && !fit_.covariance.empty(); ++i)
-      for (std::size_t j = 0; j < 6; ++j)
-        variance += slope[i] * slope[j] * fit_.covariance[6 * i + j];
     const Estimate& one = fit_.parameters[0];
     const double t = (one.ci95_high - one.estimate) / one.std_error;
-    young.std_error = std::sqrt(variance < 0.0 ? 0.0 : variance);
-    young.ci95_low = young.estimate - t * young.std_error;
-    young.ci95_high = young.estimate + t * young.std_error;
+    const auto finish = [&](Estimate& made, const std::array<double, 6>& slope, double factor) {
+      double variance = fit_.covariance.empty() ? Estimate::unknown : 0.0;
+      for (std::size_t i = 0; i < 6 && !fit_.covariance.empty(); ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+          variance += slope[i] * slope[j] * fit_.covariance[6 * i + j];
+      made.std_error = factor * std::sqrt(variance < 0.0 ? 0.0 : variance);
+      made.ci95_low = made.estimate - t * made.std_error;
+      made.ci95_high = made.estimate + t * made.std_error;
+    };
+    Estimate young{.name = "E", .unit = "kPa", .estimate = 0.0};
+    std::array<double, 6> of_young{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      Estimate& mu = fit_.parameters[k];
+      const double alpha = fit_.parameters[3 + k].estimate;
+      const double size = size_of_power(alpha);
+      const double step = 1e-5 * std::max(1.0, std::abs(alpha));  // error of order step^2
+      const double log_slope =
+          std::log(std::abs(size_of_power(alpha + step) / size_of_power(alpha - step))) /
+          (2.0 * step);
+      std::array<double, 6> slope{};
+      slope[k] = 1.0;
+      slope[3 + k] = -mu.estimate * log_slope;
+      mu.estimate /= size;
+      for (const std::size_t i : {k, 3 + k}) of_young[i] = 1.5 * alpha / size * slope[i];
+      of_young[3 + k] += 1.5 * mu.estimate;
+      young.estimate += 1.5 * mu.estimate * alpha;
+      finish(mu, slope, 1.0 / std::abs(size));
+    }
+    finish(young, of_young, 1.0);
     fit_.parameters.insert(fit_.parameters.begin(), young);
     fit_.covariance.clear();
   }

@@ -258,6 +258,26 @@ TEST_F(FitCurves, a_sensor_at_its_limit) {
       "out of its range there; leave such rows out by `--rows` or `--where`, or delete them\n");
 }
 
+// A hold at 2 mm that is reached at 30 s, where the load relaxes from 2 N to 1 N.
+TEST_F(FitCurves, a_length_that_stays_is_a_hold) {
+  for (const double begin : {25.0, 30.0}) {
+    std::string text = "Time [s],Force [N],Position [mm]\n";
+    for (int i = 0; i < 600; ++i) {
+      const double t = begin + 0.1 * i;
+      const double force = t < 30.0 ? 0.0 : 1.0 + std::exp((30.0 - t) / 5.0);
+      text += number_text(t) + "," + number_text(force) + (t < 30.0 ? ",0\n" : ",2\n");
+    }
+    write_file(folder_ / "hold.csv", text);
+    const std::string said = palpate(folder_.path(), {"data", "hold.csv"}).out;
+    EXPECT_NE(said.find("`Position [mm]` stays over "), std::string::npos) << said;
+    EXPECT_EQ(said.find("sign changed"), std::string::npos) << said;
+    EXPECT_NE(said.find("next: palpate fit hold.csv --x \"Time [s]\" --y \"Force [N]\" --model "
+                        "prony --terms 1"),
+              std::string::npos)
+        << said;
+  }
+}
+
 // P = E/3 (L - L^-2) with E = 12 kPa, in the ways in which laboratories write it.
 TEST_F(FitCurves, stretches_and_true_stresses) {
   const auto nominal = [](double stretch) { return 4.0 * (stretch - 1.0 / (stretch * stretch)); };
@@ -276,6 +296,8 @@ TEST_F(FitCurves, stretches_and_true_stresses) {
       young("stretch (%),stress (kPa)", 100.0, 150.0, [&](double x) { return nominal(x / 100.0); }),
       12.0, 1e-3);
   EXPECT_NEAR(young("stretch,stress (kPa)", 1.0, 0.6, nominal), 12.0, 1e-3);
+  EXPECT_NEAR(young("stretch,stress (kPa)", 0.8, 1.2, nominal), 12.0, 1e-3);   // both as far
+  EXPECT_NEAR(young("stretch,stress (kPa)", 0.7, 1.15, nominal), 12.0, 1e-3);  // compressed farther
   EXPECT_NEAR(young("true strain (-),Cauchy stress (kPa)", 0.0, -0.5,
                     [&](double x) { return std::exp(x) * nominal(std::exp(x)); }),
               12.0, 1e-3);

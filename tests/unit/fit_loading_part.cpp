@@ -235,6 +235,17 @@ TEST(LoadingPart, TreloarsRubberAsScipyFitsIt) {
   const Fit ogden = fitted(UniaxialTest::Model::ogden);
   EXPECT_NEAR(ogden.parameters[0].estimate, 177.060, 0.001);
   EXPECT_NEAR(ogden.parameters[1].estimate, -7.81743, 1e-5);
+  // The last row has a term of its own, whose mu is 1e-79 kPa. scipy's end from all starts of the
+  // grid: E and the two other exponents agree to the shallowness of that term.
+  const Fit three = fitted(UniaxialTest::Model::ogden3);
+  ASSERT_EQ(three.termination, Termination::converged);
+  EXPECT_NEAR(three.parameters[0].estimate, 1552.43, 0.03);
+  std::array alpha{three.parameters[4].estimate, three.parameters[5].estimate,
+                   three.parameters[6].estimate};
+  std::sort(alpha.begin(), alpha.end());
+  EXPECT_NEAR(alpha[0], -16.152, 0.001);
+  EXPECT_NEAR(alpha[1], -4.3004, 0.0002);
+  EXPECT_NEAR(alpha[2], 93.48, 0.05);
 }
 
 // Yeoh 1993 and Ogden 1972 by their own formulas, in tension and compression at once.

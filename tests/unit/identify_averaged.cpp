@@ -56,6 +56,17 @@ TEST(Averaged, AJumpIsBetweenTwoRows) {
   }
 }
 
+// A block of two or three rows is halved where its rows differ by a jump.
+TEST(Averaged, AJumpIsBetweenTwoRowsOfAShortBlock) {
+  for (const std::size_t each : {2U, 3U}) {
+    const std::size_t count = each * 1500;
+    const double jump = (static_cast<double>(750 * each + 1) - 0.5) / static_cast<double>(count);
+    const AveragedRows found = means_of([&](double x) { return x < jump ? 0.0 : 1.0; }, 0.0, count);
+    for (const double y : found.y) EXPECT_TRUE(y == 0.0 || y == 1.0) << each << ' ' << y;
+    EXPECT_LE(found.y.size(), 1502U);
+  }
+}
+
 // At the crests of n waves a block bends by (2 pi n / 1500)^2 / 16, against twice 1e-4.
 TEST(Averaged, BendsBelowATenThousandthOfTheRangeStay) {
   const auto wave = [](double waves) {
