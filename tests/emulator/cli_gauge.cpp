@@ -206,22 +206,32 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   EXPECT_NEAR(modulus->value, 12.0, 0.6);
 }
 
-// Noise that hides the press: the run ends when its time is up, and says what it waited for.
-TEST(GaugeRun, SaysThatNoiseHidesThePress) {
+// Noise that hides the press, and a press that never comes: the run says after a few seconds what
+// it waits for, and again when its time is up.
+TEST(GaugeRun, SaysWhatItWaitsFor) {
   const TemporaryFolder folder;
-  std::string hand = read_file(project_file("scenarios/emulator/gauge_mark10.toml"));
-  const auto at = hand.find("noise ");
-  hand.replace(at, hand.find('\n', at) - at, "noise = \"600 mN\"");
-  const Gauge gauge{.style = "mark10",
-                    .settings = "mark10_gauge",
-                    .baud = "115200",
-                    .hand = folder.file("noisy.toml", hand)};
-  LiveEmulator emulator(emulator_of(gauge, folder / "log.csv"));
-  const Ended ended = palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"),
-                                              "--device", link_of(gauge, emulator), "--surface",
-                                              "-2 mm", "--clock", "virtual", "--seconds", "10"});
-  EXPECT_NE(ended.code, 0);
-  EXPECT_TRUE(has(ended.err, "which is six times the noise of the gauge")) << ended.err;
+  const std::string hand = read_file(project_file("scenarios/emulator/gauge_mark10.toml"));
+  std::string noisy = hand;
+  const auto at = noisy.find("noise ");
+  noisy.replace(at, noisy.find('\n', at) - at, "noise = \"600 mN\"");
+  const std::string still = hand.substr(0, hand.find("[[waypoint]]"));
+  for (const auto& [path, said] :
+       {std::pair{folder.file("noisy.toml", noisy), "which is six times the noise of the gauge"},
+        std::pair{folder.file("still.toml", still),
+                  "100 mN above that at rest, the `start_force` of the settings"}}) {
+    const Gauge gauge{
+        .style = "mark10", .settings = "mark10_gauge", .baud = "115200", .hand = path};
+    LiveEmulator emulator(emulator_of(gauge, folder / "log.csv"));
+    const Ended ended = palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"),
+                                                "--device", link_of(gauge, emulator), "--force",
+                                                "--clock", "virtual", "--seconds", "10"});
+    EXPECT_EQ(ended.code, 6) << ended.err;
+    const auto waiting = ended.err.find("waiting for the force to rise by ");
+    const auto never = ended.err.find("the force never rose by ");
+    ASSERT_LT(waiting, never) << ended.err;
+    EXPECT_TRUE(has(ended.err.substr(waiting, never - waiting), said)) << ended.err;
+    EXPECT_TRUE(has(ended.err.substr(never), said)) << ended.err;
+  }
 }
 
 // By the machine's clock, interrupted after a second and a half.
