@@ -134,14 +134,13 @@ class GaugeLoop {
   // F^(2/3) of the first readings is 0, as for a sphere that is pressed at a constant speed. Three
   // readings make a line; with fewer, contact began after the last reading without force.
   // Forces are those above the mean of the readings at rest, which is what a gauge shows that is
-  // not tared; a change within the noise of these readings is none.
+  // not tared.
   bool begins(const Sample& sample) {
     const double time = time_of(sample);
     if (rest_.count == 0) rest_.add(sample.force);
     const double least = *limits_.start_force;
-    const double noise = rest_.deviation();
     const double change = sample.force - rest_.mean();
-    if (!(change > std::max(least / 8.0, 3.0 * noise))) {
+    if (!(change > least / 8.0)) {
       for (const Sample& one : std::exchange(first_, {})) rest_.add(one.force);
       rest_.add(sample.force);
       line_ = TouchLine();

@@ -332,17 +332,21 @@ INSTANTIATE_TEST_SUITE_P(
         LineFault{"spike", "value = \"50 mN\"\n", 0, "", 0.05 + good}),
     [](const auto& one) { return std::string(one.param.kind) + std::to_string(one.index); });
 
-// A hand that stops short ends the run, and the verdict says so.
+// A hand that stops short ends the run, and the verdict says so. What the gauge does while the hand
+// stands still is no part of it.
 TEST(GaugeRun, EndsWhereTheHandGivesUp) {
   const TemporaryFolder folder;
   std::string hand = read_file(project_file("scenarios/emulator/gauge_hx711.toml"));
   for (auto at = hand.find("\"4 mm\""); at != std::string::npos; at = hand.find("\"4 mm\""))
     hand.replace(at, 6, "\"3.5 mm\"");
   const std::string still = hand.substr(0, hand.rfind("[[waypoint]]"));
+  const std::string drift =
+      folder.file("drift.toml", "[[fault]]\nkind = \"drift\"\nat = \"2.5 s\"\nvalue = \"5 mN\"\n");
   for (const auto& [path, said] :
        {std::pair{folder.file("back.toml", hand), "was withdrawn after"},
         std::pair{folder.file("still.toml", still), "stands still at"}}) {
-    const LiveEmulator emulator(emulator_of(Gauge{.hand = path}, folder / "log.csv"));
+    const LiveEmulator emulator(
+        emulator_of(Gauge{.hand = path, .emulator = {"--fault", drift}}, folder / "log.csv"));
     const Ended ended =
         palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"), "--device",
                                 link_of(Gauge{}, emulator), "--surface", "-2 mm", "--clock",
@@ -350,6 +354,7 @@ TEST(GaugeRun, EndsWhereTheHandGivesUp) {
     EXPECT_EQ(ended.code, 3) << ended.err;
     EXPECT_TRUE(has(ended.err, said)) << ended.err;
     EXPECT_TRUE(has(ended.err, "short press: it ends at 1.5 mm of 2 mm")) << ended.err;
+    EXPECT_FALSE(has(ended.err, "; drift: ")) << ended.err;
   }
 }
 
