@@ -261,8 +261,8 @@ int sweep_parts(const Sweep& command, const Talk& talk) {
                                                   : std::optional<sweep::SweepForecast>();
   std::string text;
   for (const std::size_t part : parts) {
-    const std::string call =
-        start + " --shard " + std::to_string(part) + "/" + std::to_string(command.of) + " --jobs 1" + accepting(command);
+    const std::string call = start + " --shard " + std::to_string(part) + "/" +
+                             std::to_string(command.of) + " --jobs 1" + accepting(command);
     text += call + "\n";
     if (!talk.json()) continue;
     std::size_t cases = 0;

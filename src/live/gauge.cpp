@@ -120,9 +120,9 @@ class GaugeLoop {
   // What the rows wait for, which may never come.
   [[nodiscard]] std::string awaited() const {
     return rounded_text(1e3 * beginning(), 3) + " mN above that at rest, " +
-           (beginning() <= *limits_.start_force
-                ? "the `start_force` of the settings"
-                : "which is six times the noise of the gauge; press harder, or use a quieter gauge");
+           (beginning() <= *limits_.start_force ? "the `start_force` of the settings"
+                                                : "which is six times the noise of the gauge; "
+                                                  "press harder, or use a quieter gauge");
   }
 
   // The time of a sample (s), by the gauge's own clock if its lines have it.
@@ -231,7 +231,7 @@ class GaugeLoop {
   double rest_travel_ = 0.0;         // m, of the last motion
   double moved_at_ = 0.0;            // s
   long long rows_ = 0;
-  int unheard_ = 0;  // waits in a row without a line, in lock-step
+  int unheard_ = 0;    // waits in a row without a line, in lock-step
   bool told_ = false;  // what it waits for
   bool over_ = false;
   LiveEnd end_;

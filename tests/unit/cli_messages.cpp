@@ -68,8 +68,9 @@ TEST_F(Messages, TitlesAndNamesAreNoCommands) {
     EXPECT_EQ(said.code, 0) << said.err;
     for (const std::string& text : {said.out, said.err})
       EXPECT_EQ(("\n" + text).find("\n::"), std::string::npos) << text;
-    if (verb == "explain")
+    if (verb == "explain") {
       EXPECT_NE(said.out.find("c\\x0a::error::d"), std::string::npos) << said.out;
+    }
   }
 }
 
