@@ -143,11 +143,25 @@ class SignalsWait {
   sigset_t before_{};
 };
 
+constexpr const char* left_name = ".palpate-part";  // before a process number
+
+// Removes what processes have left that were killed before a whole file took its place.
+void remove_left(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(path).parent_path();
+  const std::string begin = fs::path(path).filename().string() + left_name;
+  std::error_code none;
+  fs::directory_iterator at(folder.empty() ? "." : folder, none);
+  for (; !none && at != fs::directory_iterator(); at.increment(none))
+    if (at->path().filename().string().starts_with(begin) && HeldFile().take(at->path().string()))
+      ::unlink(at->path().c_str());
+}
+
 }  // namespace
 
 void HeldFile::write(const std::string& path, std::string_view content, Disk disk) {
   const SignalsWait wait;
-  const std::string temporary = path + ".part" + std::to_string(::getpid());
+  const std::string temporary = path + left_name + std::to_string(::getpid());
   // Without a name until it is whole, so that SIGKILL leaves nothing; not every file system can.
   const std::string folder = std::filesystem::path(path).parent_path().string();
   int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
@@ -174,12 +188,18 @@ void HeldFile::write(const std::string& path, std::string_view content, Disk dis
     check(::fsync(file) == 0);
   else
     (void)::sync_file_range(file, 0, 0, SYNC_FILE_RANGE_WRITE);
-  if (unnamed) {
-    ::unlink(temporary.c_str());
-    const std::string itself = "/proc/self/fd/" + std::to_string(file);
-    check(::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) == 0);
+  const std::string itself = "/proc/self/fd/" + std::to_string(file);
+  const auto name = [&](const std::string& as) {
+    return ::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, as.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  if (!unnamed || !name(path)) {  // a file of that name is there
+    remove_left(path);
+    if (unnamed) {
+      ::unlink(temporary.c_str());
+      check(name(temporary));
+    }
+    check(::rename(temporary.c_str(), path.c_str()) == 0);
   }
-  check(::rename(temporary.c_str(), path.c_str()) == 0);
   release();
   file_ = file;
 }

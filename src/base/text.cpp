@@ -125,6 +125,12 @@ std::string hex_text(unsigned char byte) {
   return {digits[byte >> 4U], digits[byte & 15U]};
 }
 
+std::string one_line(std::string_view name) {
+  std::string line;
+  for (const char c : name) line += c == '\n' ? std::string("\\x0a") : std::string(1, c);
+  return line;
+}
+
 std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 std::string percent_text(double part) { return rounded_text(100.0 * part, 2) + " %"; }

@@ -39,6 +39,9 @@ struct LeadingNumber {
 // Two hexadecimal digits, in small letters.
 [[nodiscard]] std::string hex_text(unsigned char byte);
 
+// A name from a file as part of a line, which its line feeds do not end.
+[[nodiscard]] std::string one_line(std::string_view name);
+
 // The text between backticks, as messages quote keys, words and options.
 [[nodiscard]] std::string ticked(std::string_view text);
 

@@ -297,11 +297,14 @@ void add_options(CLI::App& all, Sweep& sweep) {
   verb->add_flag("--yes", sweep.yes, "Allow any number of cases");
   verb->add_option("--reuse", sweep.reuse, "Take over rows of equal cases from another plan")
       ->type_name("FOLDER");
+  const auto add_accepting = [&] {
+    verb->add_flag("--accept-failed", sweep.accept_failed,
+                   "Exit code 0 where every case has a row, failed ones included");
+  };
   const auto add_part = [&] {
     verb->add_option("--shard", sweep.shard, "The I-th of N parts: I/N")->capture_default_str();
     add_jobs(*verb, sweep.jobs);
-    verb->add_flag("--accept-failed", sweep.accept_failed,
-                   "Exit code 0 where every case has a row, failed ones included");
+    add_accepting();
     verb->add_option("--done", sweep.done, "Write this file once every case of the part has a row")
         ->type_name("FILE");
   };
@@ -312,18 +315,21 @@ void add_options(CLI::App& all, Sweep& sweep) {
   add_part();
   verb = add("merge", Sweep::Act::merge, "All results as one table, with figures");
   verb->add_flag("--force", sweep.force, "Replace the merged results");
+  add_accepting();
   verb->add_option("--show", sweep.show, "A column of results.csv to draw; may be repeated")
       ->allow_extra_args(false);
   verb = add("parts", Sweep::Act::parts, "Print the commands that run the unfinished parts");
   verb->add_option("--of", sweep.of, "Number of parts")
       ->required()
       ->check(CLI::Range(1, 100000000));
+  add_accepting();
   verb->add_option("--program", sweep.program, "The program as a shell takes it");
   verb = add("slurm", Sweep::Act::slurm, "Write a job file, and print the sbatch command");
   verb->add_option("--chunk", sweep.chunk, "Cases per task")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000000));
   verb->add_option("--time", sweep.time, "Time limit per task, as 01:00:00");
+  add_accepting();
   verb->add_option("--program", sweep.program, "The program as a shell takes it");
   verb->add_option("--prologue", sweep.prologue, "File of lines that a task runs first")
       ->type_name("FILE");

@@ -181,7 +181,7 @@ struct Sweep {
   std::string time;               // limit per task, as Slurm writes it; empty: the cluster's
   std::vector<std::string> show;  // columns that `merge` draws; empty: the usual ones
   std::string reuse;              // folder of a plan; empty: none
-  bool accept_failed = false;     // failed cases are no failure of the run
+  bool accept_failed = false;     // failed cases are no failure
   std::string done;               // file that says that the part is whole; empty: none
   int of = 1;                     // number of parts
   std::string program;            // as a shell takes it; empty: this one

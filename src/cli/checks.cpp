@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "cli/table_text.h"
 
 namespace palpate::cli {
@@ -13,7 +14,7 @@ namespace {
 std::string text_of(const compare::Check& check, bool headed, const Talk& talk) {
   if (!check.error.empty()) return "";  // said on stderr
   if (headed && check.equal()) return "";
-  return (headed ? compare::one_line(check.name) + ": DIFFERS\n" : "") +
+  return (headed ? one_line(check.name) + ": DIFFERS\n" : "") +
          (check.one_file ? compare::comparison_text(check.comparison.files.front().comparison)
                          : compare::comparison_text(check.comparison)) +
          (talk.quiet() ? "" : compare::equal_text(check.comparison));
@@ -41,11 +42,7 @@ void report_checks(std::span<const compare::Check> checks, const CheckOptions& o
   }
   if (!options.junit.empty()) write_atomically(options.junit, compare::junit_text(checks));
   // GitHub reads commands on both streams; stdout may be JSON.
-  if (options.annotations == "github") {
-    std::string lines = compare::github_annotations(checks);
-    if (!lines.empty()) lines.pop_back();
-    if (!lines.empty()) Talk::error(lines);
-  }
+  if (options.annotations == "github") Talk::annotate(compare::github_annotations(checks));
 }
 
 }  // namespace palpate::cli

@@ -152,10 +152,10 @@ class Explanation {
 
   // The three plain sentences, then the numbers. `name` starts the text where there are several.
   std::string text(const std::string& name, const std::string& title) {
-    line((name.empty() ? "" : ticked(name) + ": ") + expected_.answer.model);
+    line((name.empty() ? "" : ticked(one_line(name)) + ": ") + expected_.answer.model);
     line(expected_.answer.error);
     line(expected_.answer.left_out);
-    line("\ncase " + scene_.name + ": " + title);
+    line("\ncase " + one_line(scene_.name) + ": " + one_line(title));
     tissue();
     shape();
     regions();

@@ -168,7 +168,7 @@ int add(const Golden& command, const Talk& talk) {
   for (const std::string& scenario : command.subjects)
     if (const KeptResult kept = KeptResult::of(scenario); kept.is_kept() && !command.force)
       throw InputError({kept.expected, 0, 0},
-                       "holds the kept result of " + compare::one_line(scenario) +
+                       "holds the kept result of " + one_line(scenario) +
                            "; see what differs by `palpate golden check`, and give `--force` to "
                            "replace it");
   std::vector<std::string> commits;  // before any file changes
@@ -180,7 +180,7 @@ int add(const Golden& command, const Talk& talk) {
     keep(compute(kept.scenario, worker_count(command.jobs)),
          command.reason.empty() ? "" : baseline_text(command.reason, commits[i]), kept.expected);
     talk.event("kept", {{"scenario", kept.scenario}, {"expected", kept.expected}});
-    talk.say(compare::one_line(kept.expected) + ": kept");
+    talk.say(one_line(kept.expected) + ": kept");
   }
   return exit_good;
 }
@@ -234,8 +234,8 @@ int list(const Golden& command, const Talk& talk) {
   record::Table table{{"scenario", "expected", "files", "tolerances"}, {}};
   for (const KeptResult& kept : asked(command)) {
     record::Cell tolerances;
-    if (fs::exists(kept.tolerances)) tolerances = compare::one_line(kept.tolerances);
-    table.rows.push_back({compare::one_line(kept.scenario), compare::one_line(kept.expected),
+    if (fs::exists(kept.tolerances)) tolerances = one_line(kept.tolerances);
+    table.rows.push_back({one_line(kept.scenario), one_line(kept.expected),
                           static_cast<double>(compare::tables_below(kept.expected).size()),
                           tolerances});
   }

@@ -13,7 +13,6 @@
 #include "device/link_text.h"
 #include "fit/case_fits.h"
 #include "live/as_moved.h"
-#include "live/guide.h"
 #include "live/live.h"
 #include "report/answer_lines.h"
 #include "report/manifest.h"
@@ -119,11 +118,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   const std::string started = report::utc_now();
   folder.open();
   const live::Live::Output output{
-      .on_step =
-          [&](int step) {
-            talk.say("step " + std::to_string(step) + ": " +
-                     live::guidance(scene.scenario.steps[as_index(step - 1)]));
-          },
+      .say = [&](const std::string& sentence) { talk.say(sentence); },
       .on_warning = [&](const std::string& sentence) { talk.warn(sentence); },
       .rows_file = folder.growing(live.rows_name()),
       .traffic_file = command.device.traffic ? folder.growing("traffic.csv") : std::string()};

@@ -44,7 +44,15 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_reasons = 20;  // printed by `status`
 
-int exit_of(const sweep::SweepTotals& totals) { return totals.good() ? exit_good : exit_partial; }
+int exit_of(const sweep::SweepTotals& totals, const Sweep& command) {
+  const bool good = command.accept_failed || totals.diverged + totals.failed == 0;
+  return good && totals.missing == 0 ? exit_good : exit_partial;
+}
+
+// What the commands of parts end with.
+std::string accepting(const Sweep& command) {
+  return command.accept_failed ? " --accept-failed" : "";
+}
 
 std::string status_json(const sweep::SweepTotals& totals, const sweep::SweepResults& results) {
   Json json{{"cases", totals.cases},
@@ -137,7 +145,7 @@ int sweep_status(const Sweep& command, const Talk& talk) {
   const sweep::SweepTotals totals = sweep::count_results(plan, results);
   print(talk.json() ? status_json(totals, results) : status_text(totals, results));
   for (const std::string& warning : results.warnings()) talk.warn(warning);
-  return exit_of(totals);
+  return exit_of(totals, command);
 }
 
 int sweep_merge(const Sweep& command, const Talk& talk) {
@@ -173,7 +181,7 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
                         {"cases", totals.cases},
                         {"completed", totals.completed},
                         {"missing", totals.missing}});
-  return exit_of(totals);
+  return exit_of(totals, command);
 }
 
 // The program as a shell takes it: as given, or this one.
@@ -253,8 +261,8 @@ int sweep_parts(const Sweep& command, const Talk& talk) {
                                                   : std::optional<sweep::SweepForecast>();
   std::string text;
   for (const std::size_t part : parts) {
-    const std::string call =
-        start + " --shard " + std::to_string(part) + "/" + std::to_string(command.of) + " --jobs 1";
+    const std::string call = start + " --shard " + std::to_string(part) + "/" +
+                             std::to_string(command.of) + " --jobs 1" + accepting(command);
     text += call + "\n";
     if (!talk.json()) continue;
     std::size_t cases = 0;
@@ -295,6 +303,7 @@ int sweep_slurm(const Sweep& command, const Talk& talk) {
                             .prologue = command.prologue.empty() ? "" : read_text(command.prologue),
                             .folder = folder,
                             .tasks = (plan.count() + chunk - 1) / chunk,
+                            .more = accepting(command),
                             .time = command.time};
   check_with_cluster(command, job.tasks, plan.count());
   fs::create_directories(fs::path(job.folder) / "logs");

@@ -18,15 +18,20 @@ namespace palpate::cli {
 namespace {
 
 // Names in messages come from files, and a terminal obeys control characters: they are shown as
-// `\x1b`. In UTF-8 those from 0x80 to 0x9f follow a byte 0xc2.
-std::string shown(const std::string& text) {
+// `\x1b`. In UTF-8 those from 0x80 to 0x9f follow a byte 0xc2. A build server obeys lines that
+// begin with `::`.
+enum class Commands { hidden, kept };
+std::string shown(const std::string& text, Commands commands = Commands::hidden) {
   std::string safe;
+  bool begins = true;  // the line, but for blanks
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
     const bool second_set = byte == 0xc2 && next >= 0x80 && next <= 0x9f;
     const bool control = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f;
-    if (control || second_set)
+    const bool command = commands == Commands::hidden && begins && byte == ':' && next == ':';
+    begins = byte == '\n' || (begins && (byte == ' ' || byte == '\t'));
+    if (control || second_set || command)
       safe += "\\x" + hex_text(second_set ? next : byte);
     else
       safe += text[i];
@@ -59,6 +64,10 @@ void Talk::warn(const std::string& sentence) const {
 
 void Talk::error(const std::string& sentence) {
   std::fprintf(stderr, "%s\n", shown(sentence).c_str());
+}
+
+void Talk::annotate(const std::string& lines) {
+  std::fputs(shown(lines, Commands::kept).c_str(), stderr);
 }
 
 void Talk::progress(const std::string& line) const {

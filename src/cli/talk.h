@@ -22,6 +22,7 @@ class Talk {
   void say(const std::string& sentence) const;     // stderr, unless quiet
   void warn(const std::string& sentence) const;    // stderr, unless quiet; yellow on terminals
   static void error(const std::string& sentence);  // stderr, always
+  static void annotate(const std::string& lines);  // stderr, always: commands to a build server
 
   // Replaces the previous progress line, on terminals only; an empty line removes it.
   void progress(const std::string& line) const;

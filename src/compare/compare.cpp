@@ -310,12 +310,6 @@ Comparison compare(const Table& got, const Table& want, const Tolerances& tolera
   return comparison;
 }
 
-std::string one_line(const std::string& name) {
-  std::string line;
-  for (const char c : name) line += c == '\n' ? std::string("\\x0a") : std::string(1, c);
-  return line.starts_with("::") ? "\\x3a" + line.substr(1) : line;
-}
-
 std::string comparison_text(const Comparison& comparison) {
   std::string text;
   if (!comparison.rows_equal()) text += "rows: " + rows_text(comparison) + "\n";

@@ -85,9 +85,6 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const record::Table& got, const record::Table& want,
                                  const Tolerances& tolerances);
 
-// A name from a file as part of a line: it ends none, and is no command for a build server.
-[[nodiscard]] std::string one_line(const std::string& name);
-
 // One line per difference, a column with its worst row; each line ends with `\n`.
 [[nodiscard]] std::string comparison_text(const Comparison& comparison);
 // The part of the line after the column's name: what differs, where, and both values.

@@ -28,6 +28,7 @@ constexpr double told_tare = 0.1;     // of `start_force`
 constexpr double given_up = 0.5;      // of the travel asked for: a withdrawal after it ends the run
 constexpr double still = 10.0;        // s without motion in contact, which no step asks for
 constexpr double moved = 0.02;        // of the deepest travel: less is no motion
+constexpr double unasked = 5.0;       // s without a press, after which what it waits for is said
 
 // Mean and standard deviation of readings; those of a long time, about the last hundred.
 class Readings {
@@ -66,7 +67,7 @@ class GaugeLoop {
     note(LinkState::closed, Fault::none);
     if (rows_ == 0 &&
         (end_.why == LiveEnd::Why::done || (end_.why == LiveEnd::Why::too_long && !begun_)))
-      end_ = {LiveEnd::Why::link, never_begun()};
+      end_ = {LiveEnd::Why::link, "the force never rose by " + awaited()};
     return end_;
   }
 
@@ -116,12 +117,12 @@ class GaugeLoop {
     return std::max(*limits_.start_force, 6.0 * rest_.deviation());
   }
 
-  [[nodiscard]] std::string never_begun() const {
-    if (begun_ || beginning() <= *limits_.start_force)
-      return "the force never reached the `start_force` of the settings";
-    return "the force never rose by " + rounded_text(1e3 * beginning(), 3) +
-           " mN above that at rest, which is six times the noise of the gauge; press harder, or "
-           "use a quieter gauge";
+  // What the rows wait for, which may never come.
+  [[nodiscard]] std::string awaited() const {
+    return rounded_text(1e3 * beginning(), 3) + " mN above that at rest, " +
+           (beginning() <= *limits_.start_force ? "the `start_force` of the settings"
+                                                : "which is six times the noise of the gauge; "
+                                                  "press harder, or use a quieter gauge");
   }
 
   // The time of a sample (s), by the gauge's own clock if its lines have it.
@@ -133,14 +134,13 @@ class GaugeLoop {
   // F^(2/3) of the first readings is 0, as for a sphere that is pressed at a constant speed. Three
   // readings make a line; with fewer, contact began after the last reading without force.
   // Forces are those above the mean of the readings at rest, which is what a gauge shows that is
-  // not tared; a change within the noise of these readings is none.
+  // not tared.
   bool begins(const Sample& sample) {
     const double time = time_of(sample);
     if (rest_.count == 0) rest_.add(sample.force);
     const double least = *limits_.start_force;
-    const double noise = rest_.deviation();
     const double change = sample.force - rest_.mean();
-    if (!(change > std::max(least / 8.0, 3.0 * noise))) {
+    if (!(change > least / 8.0)) {
       for (const Sample& one : std::exchange(first_, {})) rest_.add(one.force);
       rest_.add(sample.force);
       line_ = TouchLine();
@@ -167,6 +167,9 @@ class GaugeLoop {
       write(sample);
     } else {
       begun_ = begins(sample);
+      if (begun_ || told_ || loop_.clock.now() - start_ < unasked) return;
+      told_ = true;
+      loop_.say("waiting for the force to rise by " + awaited());
     }
   }
 
@@ -228,7 +231,8 @@ class GaugeLoop {
   double rest_travel_ = 0.0;         // m, of the last motion
   double moved_at_ = 0.0;            // s
   long long rows_ = 0;
-  int unheard_ = 0;  // waits in a row without a line, in lock-step
+  int unheard_ = 0;    // waits in a row without a line, in lock-step
+  bool told_ = false;  // what it waits for
   bool over_ = false;
   LiveEnd end_;
 };

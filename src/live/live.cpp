@@ -156,6 +156,11 @@ void Live::refuse_inside(std::vector<std::string>& lines) {
   lines.push_back(sentence);
 }
 
+std::string Live::step_sentence(int step) const {
+  return "step " + std::to_string(step) + ": " +
+         guidance(scene_->scenario.steps[as_index(step - 1)]);
+}
+
 std::vector<std::string> Live::plan(const std::string& file) {
   const device::Identity& identity = link_.identity();
   const device::Limits& limits = link_.limits();
@@ -189,8 +194,8 @@ std::vector<std::string> Live::plan(const std::string& file) {
                       " below the surface to 2 mm above it or where it is now");
     }
   }
-  for (std::size_t i = 0; i < scene_->scenario.steps.size(); ++i)
-    lines.push_back("step " + std::to_string(i + 1) + ": " + guidance(scene_->scenario.steps[i]));
+  for (int step = 1; step <= static_cast<int>(scene_->scenario.steps.size()); ++step)
+    lines.push_back(step_sentence(step));
 
   const Place place{file, 0, 0};
   if (scene_->specimen && scene_->specimen->plan.time_step > limits.period * (1.0 + 1e-6) &&
@@ -230,7 +235,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   device::Health health;
   // In lock-step, as with a recording, the loop waits for a slow disk and loses no row.
   const bool stepped = clock_.kind() == device::Clock::Kind::stepped;
-  LiveLog log(output.on_step,
+  LiveLog log([&](int step) { output.say(step_sentence(step)); },
               {.rows_file = output.rows_file,
                .case_name = scene_->name,
                .table = link_.limits().measures_travel ? record::contact_table
@@ -244,7 +249,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
       if (!sentence.empty()) result.warnings.push_back(std::move(sentence));
     device::prefault_stack(stack);
   }
-  LiveLoop loop{*scene_, *options_, link_, clock_, model, log, health, stop};
+  LiveLoop loop{*scene_, *options_, link_, clock_, model, log, health, stop, output.say};
   result.end = run_loop(link_.identity().kind, loop);
   if (link_.identity().kind == Kind::arm) (void)link_.stop();
   if (options_->priority == LiveOptions::Priority::realtime) device::use_ordinary();

@@ -41,7 +41,7 @@ class Live {
 
   // Callbacks and files of a run, which another thread calls and writes.
   struct Output {
-    std::function<void(int step)> on_step;                        // a step begins
+    std::function<void(const std::string& sentence)> say;         // what the person is to do
     std::function<void(const std::string& sentence)> on_warning;  // errors of files, lost rows
     std::string rows_file;     // the file of rows_name(), written during the run; empty: none
     std::string traffic_file;  // likewise, for LiveOptions::Traffic::kept
@@ -58,6 +58,7 @@ class Live {
   [[nodiscard]] Result go(const std::atomic<bool>& stop, const Output& output);
 
  private:
+  [[nodiscard]] std::string step_sentence(int step) const;
   void refuse_inside(std::vector<std::string>& lines);
 
   const scene::Scene* scene_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -57,6 +58,7 @@ struct LiveLoop {
   LiveLog& log;
   device::Health& health;
   const std::atomic<bool>& stop;
+  std::function<void(const std::string&)> say = {};  // gauge: tells the person at it
   std::uint64_t softened = 0;  // arm: number of frames with a stiffness reduced for passivity
   FreeReadings free = {};      // stand
   double moved_until = std::numeric_limits<double>::infinity();  // gauge: s; then it was waited for

@@ -384,8 +384,11 @@ class Judgement {
     }
     const double scale = xy / xx;
     if (!(scale > 0.1)) return {};
-    return {Cause::wrong_stiffness,
-            rest(force, [&](std::size_t i) { return scale * rows_.model[i]; }), scale};
+    // What is allowed grows with the force, as where the gauge's unit is another one.
+    return {
+        Cause::wrong_stiffness,
+        rest(force, [&](std::size_t i) { return scale * rows_.model[i]; }) / std::max(1.0, scale),
+        scale};
   }
 
   // The gauge's zero moves evenly in time: a straight line through the residuals.

@@ -43,7 +43,9 @@ std::string cause_clause(Cause cause, const Verdict& verdict) {
     case Cause::wrong_stiffness:
       return "another stiffness: the specimen's force is " +
              rounded_text(std::abs(verdict.stiffness), 3) +
-             " times the model's; `palpate identify` estimates its properties";
+             " times the model's; `palpate identify` estimates its properties, if the gauge's unit "
+             "is "
+             "right";
     case Cause::outliers:
       return "outliers: " + std::to_string(verdict.outliers) +
              (verdict.outliers == 1 ? " reading is" : " readings are") +

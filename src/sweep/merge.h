@@ -19,8 +19,6 @@ struct SweepTotals {
   std::size_t missing = 0;
   std::map<std::string, std::size_t> reasons = {};  // number of diverged or failed cases by reason
   std::string missing_numbers = {};                 // as `3,7-9`, at most 12 ranges
-
-  [[nodiscard]] bool good() const { return completed == cases; }
 };
 [[nodiscard]] SweepTotals count_results(const SweepPlan& plan, const SweepResults& results);
 

@@ -70,7 +70,8 @@ std::string slurm_text(const SlurmJob& job) {
   text +=
       "\n# The task's number determines its part, so that single tasks can be submitted again.\n" +
       job.program + " sweep run \"$folder\" --shard \"${SLURM_ARRAY_TASK_ID}/" + tasks +
-      "\" \\\n  --jobs \"${SLURM_CPUS_PER_TASK:-1}\" &\n"
+      "\" \\\n  --jobs \"${SLURM_CPUS_PER_TASK:-1}\"" + job.more +
+      " &\n"
       "child=$!\n"
       "\n# The signal before the time limit reaches this shell; palpate then finishes the cases "
       "that run.\n"

@@ -15,6 +15,7 @@ struct SlurmJob {
   std::string prologue;   // lines that a task runs first
   std::string folder;     // of the plan, absolute
   std::size_t tasks = 1;  // of the array: the number of parts
+  std::string more = {};  // options of a task, after a space
   std::string time;       // limit per task, as Slurm writes it; empty: the cluster's default
 };
 

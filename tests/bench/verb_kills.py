@@ -128,7 +128,7 @@ CALLS = {
 MOST = 1.0  # s, from SIGTERM to the end
 MOST_WORK = 0.3  # s of processor time, without that of children
 FINISHED = re.compile("--force|already|finished")
-TEMPORARY = re.compile(r"\.partial[-/]|\.part\d+$|\.old$|\.before|\.replaced$")
+TEMPORARY = re.compile(r"\.partial[-/]|\.palpate-part\d+$|\.part\d+$|\.old$|\.before|\.replaced$")
 TIMES = re.compile(r"_chart/|^b\.html$")  # are among what these say
 # Files that say in themselves whether they are whole.
 LINES = re.compile(r"\.rows$|\.lock$|_measurements/")

@@ -206,22 +206,32 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   EXPECT_NEAR(modulus->value, 12.0, 0.6);
 }
 
-// Noise that hides the press: the run ends when its time is up, and says what it waited for.
-TEST(GaugeRun, SaysThatNoiseHidesThePress) {
+// Noise that hides the press, and a press that never comes: the run says after a few seconds what
+// it waits for, and again when its time is up.
+TEST(GaugeRun, SaysWhatItWaitsFor) {
   const TemporaryFolder folder;
-  std::string hand = read_file(project_file("scenarios/emulator/gauge_mark10.toml"));
-  const auto at = hand.find("noise ");
-  hand.replace(at, hand.find('\n', at) - at, "noise = \"600 mN\"");
-  const Gauge gauge{.style = "mark10",
-                    .settings = "mark10_gauge",
-                    .baud = "115200",
-                    .hand = folder.file("noisy.toml", hand)};
-  LiveEmulator emulator(emulator_of(gauge, folder / "log.csv"));
-  const Ended ended = palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"),
-                                              "--device", link_of(gauge, emulator), "--surface",
-                                              "-2 mm", "--clock", "virtual", "--seconds", "10"});
-  EXPECT_NE(ended.code, 0);
-  EXPECT_TRUE(has(ended.err, "which is six times the noise of the gauge")) << ended.err;
+  const std::string hand = read_file(project_file("scenarios/emulator/gauge_mark10.toml"));
+  std::string noisy = hand;
+  const auto at = noisy.find("noise ");
+  noisy.replace(at, noisy.find('\n', at) - at, "noise = \"600 mN\"");
+  const std::string still = hand.substr(0, hand.find("[[waypoint]]"));
+  for (const auto& [path, said] :
+       {std::pair{folder.file("noisy.toml", noisy), "which is six times the noise of the gauge"},
+        std::pair{folder.file("still.toml", still),
+                  "100 mN above that at rest, the `start_force` of the settings"}}) {
+    const Gauge gauge{
+        .style = "mark10", .settings = "mark10_gauge", .baud = "115200", .hand = path};
+    LiveEmulator emulator(emulator_of(gauge, folder / "log.csv"));
+    const Ended ended = palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"),
+                                                "--device", link_of(gauge, emulator), "--force",
+                                                "--clock", "virtual", "--seconds", "10"});
+    EXPECT_EQ(ended.code, 6) << ended.err;
+    const auto waiting = ended.err.find("waiting for the force to rise by ");
+    const auto never = ended.err.find("the force never rose by ");
+    ASSERT_LT(waiting, never) << ended.err;
+    EXPECT_TRUE(has(ended.err.substr(waiting, never - waiting), said)) << ended.err;
+    EXPECT_TRUE(has(ended.err.substr(never), said)) << ended.err;
+  }
 }
 
 // By the machine's clock, interrupted after a second and a half.
@@ -322,17 +332,21 @@ INSTANTIATE_TEST_SUITE_P(
         LineFault{"spike", "value = \"50 mN\"\n", 0, "", 0.05 + good}),
     [](const auto& one) { return std::string(one.param.kind) + std::to_string(one.index); });
 
-// A hand that stops short ends the run, and the verdict says so.
+// A hand that stops short ends the run, and the verdict says so. What the gauge does while the hand
+// stands still is no part of it.
 TEST(GaugeRun, EndsWhereTheHandGivesUp) {
   const TemporaryFolder folder;
   std::string hand = read_file(project_file("scenarios/emulator/gauge_hx711.toml"));
   for (auto at = hand.find("\"4 mm\""); at != std::string::npos; at = hand.find("\"4 mm\""))
     hand.replace(at, 6, "\"3.5 mm\"");
   const std::string still = hand.substr(0, hand.rfind("[[waypoint]]"));
+  const std::string drift =
+      folder.file("drift.toml", "[[fault]]\nkind = \"drift\"\nat = \"2.5 s\"\nvalue = \"5 mN\"\n");
   for (const auto& [path, said] :
        {std::pair{folder.file("back.toml", hand), "was withdrawn after"},
         std::pair{folder.file("still.toml", still), "stands still at"}}) {
-    const LiveEmulator emulator(emulator_of(Gauge{.hand = path}, folder / "log.csv"));
+    const LiveEmulator emulator(
+        emulator_of(Gauge{.hand = path, .emulator = {"--fault", drift}}, folder / "log.csv"));
     const Ended ended =
         palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"), "--device",
                                 link_of(Gauge{}, emulator), "--surface", "-2 mm", "--clock",
@@ -340,6 +354,7 @@ TEST(GaugeRun, EndsWhereTheHandGivesUp) {
     EXPECT_EQ(ended.code, 3) << ended.err;
     EXPECT_TRUE(has(ended.err, said)) << ended.err;
     EXPECT_TRUE(has(ended.err, "short press: it ends at 1.5 mm of 2 mm")) << ended.err;
+    EXPECT_FALSE(has(ended.err, "; drift: ")) << ended.err;
   }
 }
 

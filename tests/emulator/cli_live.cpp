@@ -104,6 +104,28 @@ TEST(LiveStand, StopsWhereAForceIsReached) {
   EXPECT_NEAR(deepest, lowest, 0.1);
 }
 
+// The command of the motion after a hold takes its time, which is taken off the hold.
+TEST(LiveStand, HoldsForAsLongAsAsked) {
+  const Played live(Session{});
+  ASSERT_EQ(live.ended.code, 0) << live.ended.err;
+  double first = 0.0;
+  double last = 0.0;
+  for (std::size_t i = 0; i < live.rows.size(); ++i) {
+    if (live.rows.number(i, "measured_travel_mm") < 1.97) continue;
+    last = live.rows.number(i, "time_s");
+    if (first == 0.0) first = last;
+  }
+  // A second, to a reading at either end.
+  EXPECT_NEAR(last - first, 1.0, 0.045);
+}
+
+// The slowest press of the stand shows no other travel for seconds.
+TEST(LiveStand, IsNotTakenForStuckWhereItIsSlow) {
+  const Played live(Session{
+      .options = {"--arm", "--set", "step.1.to=0.1 mm", "--set", "step.1.rate=0.0085 mm/s"}});
+  EXPECT_EQ(live.ended.code, 0) << live.ended.err;
+}
+
 TEST(LiveArm, ShowsTheForceThatOfflineGivesAtTheHandsPlace) {
   const Played live(Session{.link = "inverse3", .scenario = "device_arm"});
   ASSERT_EQ(live.ended.code, 0) << live.ended.err;

@@ -86,8 +86,8 @@ TEST(LiveVerdict, TheSurfaceIsFoundInNoise) {
 // A surface that noise leaves open by a good part of the press is none.
 TEST(LiveVerdict, ASurfaceThatNoiseHidesIsNotTaken) {
   const test::TemporaryFolder folder;
-  const test::LiveEmulator emulator(
-      {"mark10", "--clock", "virtual", "--tissue",
+  test::LiveEmulator emulator(
+      {"mark10", "--clock", "virtual", "--log", folder / "log.csv", "--tissue",
        test::project_file("scenarios/emulator/stand_tissue.toml"), "--stand",
        folder.file("stand.toml", "[gauge]\nfilter = 0\nnoise = \"60 mN\"\n")});
   const test::Ended ended =
@@ -96,6 +96,11 @@ TEST(LiveVerdict, ASurfaceThatNoiseHidesIsNotTaken) {
                                     "virtual", "--set", "output.figures=false"});
   EXPECT_EQ(ended.code, 6);
   EXPECT_TRUE(has(ended.err, "by which the surface is known to")) << ended.err;
+  emulator.end();
+  // It goes slower, for more readings, but not slower than 0.1 mm/s.
+  const std::string log = test::read_file(folder / "log.csv");
+  EXPECT_TRUE(has(log, "e0006.0"));
+  EXPECT_FALSE(has(log, "e0030.0"));
 }
 
 TEST(LiveVerdict, AnArmMeasuresNoForce) {

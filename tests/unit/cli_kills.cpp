@@ -49,11 +49,31 @@ TEST(TerminatedWrites, LeaveNoTemporaryFile) {
                    .set = {{"LD_PRELOAD", PALPATE_FILE_FAULTS}, {"PALPATE_TEST_WAIT_MS", "100"}}});
   ASSERT_TRUE(running.until([&] {
     const std::set<std::string> names = names_in(folder.path());
-    return !names.empty() && names.begin()->starts_with("n.toml.part");
+    return !names.empty() && names.begin()->starts_with("n.toml.palpate-part");
   }));
   running.send(SIGTERM);
   EXPECT_EQ(running.wait().code, 130);
   EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"n.toml"});
+}
+
+// SIGKILL can come between the name of a whole file and its place: the next call clears up.
+TEST(KilledWrites, AreClearedUp) {
+  const TemporaryFolder folder;
+  write_file(folder / "n.toml", "old");
+  const auto call = [&](const char* kill) {
+    return run_program(
+        {.arguments = {"new", "press", "n.toml", "--force"},
+         .folder = folder.path(),
+         .set = {{"LD_PRELOAD", PALPATE_FILE_FAULTS}, {"PALPATE_TEST_KILL_BEFORE", kill}}});
+  };
+  std::size_t most = 0;
+  for (const char* kill : {"1", "2", "3", "4", "5", "6"}) {
+    (void)call(kill);
+    most = std::max(most, names_in(folder.path()).size());
+    EXPECT_EQ(call("0").code, 0);
+    EXPECT_EQ(names_in(folder.path()), std::set<std::string>{"n.toml"}) << kill;
+  }
+  EXPECT_EQ(most, 2U) << "no kill came between";
 }
 
 // A chart that was killed at any moment is gone on with by the same call, without `--force`. Every

@@ -60,6 +60,20 @@ TEST_F(Messages, NamesOfFilesEndNoLine) {
   }
 }
 
+TEST_F(Messages, TitlesAndNamesAreNoCommands) {
+  const std::string name = "a\n::error::b.toml";
+  write(name, "title = \"c\\u000a::error::d\"\n" + press);
+  for (const std::string verb : {"explain", "run"}) {
+    const test::Ended said = palpate(verb + " '" + name + "'");
+    EXPECT_EQ(said.code, 0) << said.err;
+    for (const std::string& text : {said.out, said.err})
+      EXPECT_EQ(("\n" + text).find("\n::"), std::string::npos) << text;
+    if (verb == "explain") {
+      EXPECT_NE(said.out.find("c\\x0a::error::d"), std::string::npos) << said.out;
+    }
+  }
+}
+
 TEST_F(Messages, OneOfEachClass) {
   const std::pair<std::string, std::string> cases[] = {
       {"[tissue]\nyoung_modulos = \"60 kPa\"\n",

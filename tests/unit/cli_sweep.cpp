@@ -198,6 +198,8 @@ TEST_F(SweepVerb, FailedCasesAreAccepted) {
   EXPECT_EQ(rows(), 2U) << "the other part has the failed case";
   EXPECT_EQ(sweep({"retry", "out/s_sweep", "--shard", "2/2", "--accept-failed"}).code, 0);
   EXPECT_EQ(rows(), 3U);
+  EXPECT_EQ(sweep({"merge", "out/s_sweep"}).code, 7);
+  EXPECT_EQ(sweep({"merge", "out/s_sweep", "--accept-failed"}).code, 0);
 }
 
 TEST_F(SweepVerb, PartsAreCommands) {
@@ -207,6 +209,12 @@ TEST_F(SweepVerb, PartsAreCommands) {
   EXPECT_EQ(parts.code, 0);
   EXPECT_EQ(std::count(parts.out.begin(), parts.out.end(), '\n'), 2);
   EXPECT_NE(parts.out.find(" --shard 1/3 --jobs 1\n"), std::string::npos) << parts.out;
+  const Ended accepting = sweep({"parts", "out/s_sweep", "--of", "3", "--accept-failed"});
+  EXPECT_NE(accepting.out.find(" --shard 1/3 --jobs 1 --accept-failed\n"), std::string::npos);
+  EXPECT_EQ(sweep({"merge", "out/s_sweep", "--accept-failed"}).code, 7) << "cases are missing";
+  ASSERT_EQ(sweep({"slurm", "out/s_sweep", "--accept-failed"}).code, 0);
+  EXPECT_NE(read_file(folder_ / "out/s_sweep/job.sbatch").find(":-1}\" --accept-failed &\n"),
+            std::string::npos);
   // As JSON, with what each part will take.
   const Ended told = sweep({"parts", "out/s_sweep", "--of", "3", "--json"});
   std::istringstream lines(told.out);

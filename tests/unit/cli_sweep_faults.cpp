@@ -1,14 +1,10 @@
 // What goes wrong with sweeps: no finished case is lost or counted twice.
-#include <linux/filter.h>
-#include <linux/seccomp.h>
-#include <sys/prctl.h>
 #include <sys/syscall.h>
 
-#include <array>
 #include <cerrno>
-#include <cstddef>
 #include <random>
 
+#include "refused_call.h"
 #include "sweep_program.h"
 
 namespace palpate::test {
@@ -109,17 +105,7 @@ TEST_F(SweepFaults, WithoutLocksItGoesOn) {
   plan(quick_sweep);
   for (const int error : {ENOSYS, ENOLCK, EOPNOTSUPP}) {
     Invocation run = call({"run", "out/s_sweep", "--shard", "1/2"});
-    run.before = [error] {
-      const auto refused = SECCOMP_RET_ERRNO | static_cast<unsigned>(error);
-      std::array<sock_filter, 4> rules{
-          sock_filter{BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
-          sock_filter{BPF_JMP | BPF_JEQ | BPF_K, 0, 1, SYS_flock},
-          sock_filter{BPF_RET | BPF_K, 0, 0, refused},
-          sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}};
-      const sock_fprog program{rules.size(), rules.data()};
-      ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-      ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
-    };
+    run.before = [error] { refuse(SYS_flock, error); };
     const Ended ended = run_program(run);
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_NE(ended.err.find("its file system has no locks"), std::string::npos) << ended.err;

@@ -4,15 +4,21 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <future>
+#include <thread>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "patience.h"
 #include "record/csv.h"
+#include "refused_call.h"
 #include "temporary_folder.h"
 
 namespace palpate::live {
@@ -66,6 +72,43 @@ class FullDisk {
   rlimit before_{};
   sighandler_t before_handler_ = SIG_DFL;
 };
+
+// How often this process has written.
+double writes() {
+  const std::string text = test::read_file("/proc/self/io");
+  return leading_number(text.substr(text.find("syscw: ") + 7))->value;
+}
+
+// SIGKILL may end a write at the end of a page of the file, and no line shall be cut there.
+TEST(LiveFiles, are_written_page_by_page) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "rows.csv";
+  const std::string line = std::string(99, 'x') + "\n";
+  std::string text;
+  for (int i = 0; i < 60; ++i) text += line;
+  LiveFile file(path);
+  const double before = writes();
+  EXPECT_EQ(file.append(text), text.size());
+  // 40 lines fit into the first page, one lies on its end, and 19 are left.
+  EXPECT_EQ(writes() - before, 3.0);
+  EXPECT_EQ(content(path), text);
+}
+
+TEST(LiveFiles, are_on_the_disk_within_a_second) {
+  const test::TemporaryFolder folder;
+  // Whether the disk was asked at once (1), and whether after a second (2).
+  const auto asked = [&] {
+    test::refuse(SYS_fsync, EIO);
+    LiveFile file(folder / "rows.csv");
+    (void)file.append("1,2\n");
+    file.sync_when_due();
+    const int at_once = file.trouble().empty() ? 0 : 1;
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    file.sync_when_due();
+    std::_Exit(at_once + (file.trouble().empty() ? 0 : 2));
+  };
+  EXPECT_EXIT(asked(), testing::ExitedWithCode(2), "");
+}
 
 class LiveLogs : public testing::Test {
  protected:
