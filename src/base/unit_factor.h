@@ -22,6 +22,16 @@ struct UnitFactor {
 // Parses a unit expression in the syntax of parse_quantity(); empty if it is not one.
 [[nodiscard]] std::optional<UnitFactor> unit_factor(std::string_view text);
 
+// A unit by a word that parse_quantity() does not take: `inch`, `psi`, `seconds`.
+struct UnitWord {
+  std::string_view word;  // in small letters
+  const char* symbol;     // as palpate writes it: `in`
+  UnitFactor factor;
+};
+
+// The unit of a word in letters of any size; null if it is none.
+[[nodiscard]] const UnitWord* unit_word(std::string_view text);
+
 // A regular expression (ECMA) of the units of a dimension: every single symbol that has it, with
 // any prefix, and every product, quotient or power, whatever its dimension.
 [[nodiscard]] std::string unit_pattern(const Dimension& dimension);

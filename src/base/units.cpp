@@ -2,6 +2,7 @@
 #include "base/units.h"
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -127,6 +128,75 @@ std::optional<std::string> nearest_unit(std::string_view written, const Dimensio
   return nearest(written, known);
 }
 
+// The pound-force and the kilogram-force are exact by definition (standard gravity 9.80665 m/s^2,
+// the pound 0.45359237 kg); the inch is 25.4 mm. The psi is lbf / in^2; the conventional millimetre
+// of mercury is 133.322387415 Pa and the torr 101325 / 760 Pa (NIST Special Publication 811).
+const std::vector<UnitWord>& unit_words() {
+  constexpr Dimension length = unit::mm.dimension, force = unit::N.dimension,
+                      time = unit::s.dimension, stress = unit::kPa.dimension,
+                      rate = unit::per_second.dimension;
+  static const std::vector<UnitWord> table{
+      {"sec", "s", {1, 1, time}},
+      {"secs", "s", {1, 1, time}},
+      {"second", "s", {1, 1, time}},
+      {"seconds", "s", {1, 1, time}},
+      {"msec", "ms", {1, 1e3, time}},
+      {"milliseconds", "ms", {1, 1e3, time}},
+      {"mins", "min", {60, 1, time}},
+      {"minute", "min", {60, 1, time}},
+      {"minutes", "min", {60, 1, time}},
+      {"hours", "h", {3600, 1, time}},
+      {"newton", "N", {1, 1, force}},
+      {"newtons", "N", {1, 1, force}},
+      {"gf", "gf", {9.80665, 1e3, force}},
+      {"kp", "kgf", {9.80665, 1, force}},
+      {"dyn", "dyn", {1, 1e5, force}},
+      {"dyne", "dyn", {1, 1e5, force}},
+      {"ozf", "ozf", {0.27801385095378125, 1, force}},
+      {"hr", "h", {3600, 1, time}},
+      {"hrs", "h", {3600, 1, time}},
+      {"rad/s", "1/s", {1, 1, rate}},
+      {"kgf", "kgf", {9.80665, 1, force}},
+      {"lbf", "lbf", {4.4482216152605, 1, force}},
+      {"in", "in", {25.4, 1e3, length}},
+      {"inch", "in", {25.4, 1e3, length}},
+      {"inches", "in", {25.4, 1e3, length}},
+      {"micron", "um", {1, 1e6, length}},
+      {"microns", "um", {1, 1e6, length}},
+      {"millimeter", "mm", {1, 1e3, length}},
+      {"millimetre", "mm", {1, 1e3, length}},
+      {"millimeters", "mm", {1, 1e3, length}},
+      {"millimetres", "mm", {1, 1e3, length}},
+      {"micrometer", "um", {1, 1e6, length}},
+      {"micrometers", "um", {1, 1e6, length}},
+      {"nanometer", "nm", {1, 1e9, length}},
+      {"nanometers", "nm", {1, 1e9, length}},
+      {"meter", "m", {1, 1, length}},
+      {"meters", "m", {1, 1, length}},
+      {"angstrom", "Angstrom", {1, 1e10, length}},
+      {"angstroms", "Angstrom", {1, 1e10, length}},
+      {"ang", "Angstrom", {1, 1e10, length}},
+      {"\u00c5", "Angstrom", {1, 1e10, length}},
+      {"\u00e5", "Angstrom", {1, 1e10, length}},
+      {"ft", "ft", {304.8, 1e3, length}},
+      {"lb", "lbf", {4.4482216152605, 1, force}},
+      {"lbs", "lbf", {4.4482216152605, 1, force}},
+      {"millinewtons", "mN", {1, 1e3, force}},
+      {"kilonewtons", "kN", {1e3, 1, force}},
+      {"pascal", "Pa", {1, 1, stress}},
+      {"pascals", "Pa", {1, 1, stress}},
+      {"kilopascals", "kPa", {1e3, 1, stress}},
+      {"megapascals", "MPa", {1e6, 1, stress}},
+      {"psi", "psi", {6894.757293168361, 1, stress}},
+      {"ksi", "ksi", {6894757.293168361, 1, stress}},
+      {"mmhg", "mmHg", {133.322387415, 1, stress}},
+      {"torr", "Torr", {101325, 760, stress}},
+      {"atm", "atm", {101325, 1, stress}},
+      {"%", "%", {1, 1e2, {}}},
+  };
+  return table;
+}
+
 std::string article(std::string_view noun) {
   const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
   return (vowel ? "an " : "a ") + std::string(noun);
@@ -162,6 +232,13 @@ std::string si_symbol(const Dimension& dimension) {
 }  // namespace
 
 std::optional<UnitFactor> unit_factor(std::string_view text) { return parse_unit(text); }
+
+const UnitWord* unit_word(std::string_view text) {
+  const std::string small = lower_case(text);
+  for (const UnitWord& one : unit_words())
+    if (small == one.word) return &one;
+  return nullptr;
+}
 
 std::string si_unit(const Dimension& dimension) { return si_symbol(dimension); }
 
@@ -216,6 +293,17 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
     const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
     if (unit_text.empty()) refuse(wanted, " with its unit" + got() + remedy);
     if (parsed) refuse(wanted, got() + ", " + dimension_name(parsed->dimension) + remedy);
+    const UnitWord* word = unit_word(unit_text);
+    if (word != nullptr && word->factor.dimension == wanted.dimension)
+      refuse(wanted, got() + " with the unknown unit `" + unit_text + "`; write it as `" +
+                         rounded_text(wanted.from_si(word->factor.to_si(number->value)), 15) + " " +
+                         wanted.symbol + "`");
+    if (unit_text.size() > 1 && unit_text[0] == ',' && std::isdigit(unit_text[1]) != 0) {
+      std::string whole = digits;
+      std::erase(whole, '.');  // between thousands
+      refuse(wanted, got() + "; write it with a decimal point, as `" + whole + "." +
+                         unit_text.substr(1) + "`");
+    }
     const auto near = nearest_unit(unit_text, wanted.dimension);
     const bool short_unit = unit_text.size() <= 100;
     refuse(wanted, got() + " with " +

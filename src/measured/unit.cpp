@@ -1,86 +1,12 @@
 // Recognises units in the names of columns, in the spellings of makers of testing machines.
 #include "measured/unit.h"
 
-#include <vector>
-
 #include "base/text.h"
 
 namespace palpate::measured {
 namespace {
 
-struct Alias {
-  std::string_view word;  // in small letters
-  WrittenUnit unit;
-};
-
-constexpr Dimension rate{0, 0, -1};
 constexpr Dimension mass{0, 1, 0};
-
-// The pound-force and the kilogram-force are exact by definition (standard gravity 9.80665 m/s^2,
-// the pound 0.45359237 kg); the inch is 25.4 mm. The psi is lbf / in^2; the conventional millimetre
-// of mercury is 133.322387415 Pa and the torr 101325 / 760 Pa (NIST Special Publication 811).
-const std::vector<Alias>& aliases() {
-  static const std::vector<Alias> table{
-      {"sec", {"s", {1, 1, time}}},
-      {"secs", {"s", {1, 1, time}}},
-      {"second", {"s", {1, 1, time}}},
-      {"seconds", {"s", {1, 1, time}}},
-      {"msec", {"ms", {1, 1e3, time}}},
-      {"milliseconds", {"ms", {1, 1e3, time}}},
-      {"mins", {"min", {60, 1, time}}},
-      {"minute", {"min", {60, 1, time}}},
-      {"minutes", {"min", {60, 1, time}}},
-      {"hours", {"h", {3600, 1, time}}},
-      {"newton", {"N", {1, 1, force}}},
-      {"newtons", {"N", {1, 1, force}}},
-      {"gf", {"gf", {9.80665, 1e3, force}}},
-      {"kp", {"kgf", {9.80665, 1, force}}},
-      {"dyn", {"dyn", {1, 1e5, force}}},
-      {"dyne", {"dyn", {1, 1e5, force}}},
-      {"ozf", {"ozf", {0.27801385095378125, 1, force}}},
-      {"hr", {"h", {3600, 1, time}}},
-      {"hrs", {"h", {3600, 1, time}}},
-      {"rad/s", {"1/s", {1, 1, rate}}},
-      {"kgf", {"kgf", {9.80665, 1, force}}},
-      {"lbf", {"lbf", {4.4482216152605, 1, force}}},
-      {"in", {"in", {25.4, 1e3, length}}},
-      {"inch", {"in", {25.4, 1e3, length}}},
-      {"inches", {"in", {25.4, 1e3, length}}},
-      {"micron", {"um", {1, 1e6, length}}},
-      {"microns", {"um", {1, 1e6, length}}},
-      {"millimeter", {"mm", {1, 1e3, length}}},
-      {"millimetre", {"mm", {1, 1e3, length}}},
-      {"millimeters", {"mm", {1, 1e3, length}}},
-      {"millimetres", {"mm", {1, 1e3, length}}},
-      {"micrometer", {"um", {1, 1e6, length}}},
-      {"micrometers", {"um", {1, 1e6, length}}},
-      {"nanometer", {"nm", {1, 1e9, length}}},
-      {"nanometers", {"nm", {1, 1e9, length}}},
-      {"meter", {"m", {1, 1, length}}},
-      {"meters", {"m", {1, 1, length}}},
-      {"angstrom", {"Angstrom", {1, 1e10, length}}},
-      {"angstroms", {"Angstrom", {1, 1e10, length}}},
-      {"ang", {"Angstrom", {1, 1e10, length}}},
-      {"\u00c5", {"Angstrom", {1, 1e10, length}}},
-      {"\u00e5", {"Angstrom", {1, 1e10, length}}},
-      {"ft", {"ft", {304.8, 1e3, length}}},
-      {"lb", {"lbf", {4.4482216152605, 1, force}}},
-      {"lbs", {"lbf", {4.4482216152605, 1, force}}},
-      {"millinewtons", {"mN", {1, 1e3, force}}},
-      {"kilonewtons", {"kN", {1e3, 1, force}}},
-      {"pascal", {"Pa", {1, 1, stress}}},
-      {"pascals", {"Pa", {1, 1, stress}}},
-      {"kilopascals", {"kPa", {1e3, 1, stress}}},
-      {"megapascals", {"MPa", {1e6, 1, stress}}},
-      {"psi", {"psi", {6894.757293168361, 1, stress}}},
-      {"ksi", {"ksi", {6894757.293168361, 1, stress}}},
-      {"mmhg", {"mmHg", {133.322387415, 1, stress}}},
-      {"torr", {"Torr", {101325, 760, stress}}},
-      {"atm", {"atm", {101325, 1, stress}}},
-      {"%", {"%", {1, 1e2, {}}}},
-  };
-  return table;
-}
 
 std::string without_brackets(std::string_view given) {
   const std::string text = trimmed(given);
@@ -136,7 +62,7 @@ WrittenUnit as_named(const std::string& bare, const WrittenUnit& unit) {
   const std::string name = lower_case(bare);
   const UnitFactor& factor = unit.factor;
   if (factor.dimension == time && name.find("rate") != std::string::npos)
-    return {"1/" + unit.text, {factor.per, factor.times, rate}};
+    return {"1/" + unit.text, {factor.per, factor.times, unit::per_second.dimension}};
   if (factor.dimension == mass && is_force_name(bare))
     return {unit.text + "f", {factor.times * 9.80665, factor.per, force}};
   return unit;
@@ -159,8 +85,7 @@ std::optional<WrittenUnit> written_unit(std::string_view given) {
   const std::string plain = plain_product(text);
   if (const auto factor = unit_factor(plain)) return WrittenUnit{plain, *factor};
   if (text == "S") return WrittenUnit{"s", {1, 1, time}};  // a time, not a conductance
-  for (const Alias& alias : aliases())
-    if (lower_case(text) == alias.word) return alias.unit;
+  if (const UnitWord* word = unit_word(text)) return WrittenUnit{word->symbol, word->factor};
   return std::nullopt;
 }
 

@@ -7,7 +7,7 @@ Discs and wide cuboids are pressed at a constant rate from rest; the force at th
 ../elasticity/axisymmetric.py, a program that shares nothing with palpate, with inertia in implicit steps by the method
 of Hilber, Hughes and Taylor (1977); a square cuboid is the disc of the same section. Scenes are drawn so that the
 radiation of [estimates] adds 5 to 100 % to Hertz's force. Settings after `--` are given to every run. Without --seed
-the draw is new; a stopped run goes on.
+the draw is new; a stopped run goes on. It needs NumPy and SciPy (python3-scipy).
 """
 import argparse
 import csv
