@@ -167,6 +167,11 @@ void HeldFile::write(const std::string& path, std::string_view content, Disk dis
   int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
   const bool unnamed = file >= 0;
   if (!unnamed) file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // A file that could not be replaced later is not begun.
+  if (file >= 0 && ::access(temporary.c_str(), F_OK) != 0 && errno == ENAMETOOLONG) {
+    ::close(file);
+    fail(path, temporary, ENAMETOOLONG);
+  }
   if (file < 0) fail(path, temporary, errno);
   // Waits: a process that clears up may hold the new file for a moment. If the file system has no
   // locks, the file is written without one.

@@ -41,15 +41,16 @@ TEST_P(Kills, LeaveTheOldResultOrTheNewOne) {
 INSTANTIATE_TEST_SUITE_P(Verbs, Kills, testing::ValuesIn(result_verbs()),
                          [](const auto& one) { return std::string(one.param.name); });
 
-// A signal that can be caught waits for the rename of the file that is being written.
+// A signal that can be caught waits for the rename of the file that replaces another.
 TEST(TerminatedWrites, LeaveNoTemporaryFile) {
   const TemporaryFolder folder;
-  Running running({.arguments = {"new", "press", "n.toml"},
+  write_file(folder / "n.toml", "old");
+  Running running({.arguments = {"new", "press", "n.toml", "--force"},
                    .folder = folder.path(),
                    .set = {{"LD_PRELOAD", PALPATE_FILE_FAULTS}, {"PALPATE_TEST_WAIT_MS", "100"}}});
   ASSERT_TRUE(running.until([&] {
     const std::set<std::string> names = names_in(folder.path());
-    return !names.empty() && names.begin()->starts_with("n.toml.palpate-part");
+    return names.rbegin()->starts_with("n.toml.palpate-part");
   }));
   running.send(SIGTERM);
   EXPECT_EQ(running.wait().code, 130);
