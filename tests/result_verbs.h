@@ -21,7 +21,8 @@ inline Content content(const fs::path& folder) {
     // An old file that could not be read is kept as `NAME.before`: it might be somebody's.
     const bool other = name == "run.json" || name == "contents.sha256" ||
                        name.ends_with(".replaced") || name.find(".before") != std::string::npos ||
-                       name.find(".part") != std::string::npos;
+                       name.find(".part") != std::string::npos ||
+                       name.find(".palpate-part") != std::string::npos;
     if (entry.is_regular_file() && !other) files[name] = read_file(entry.path());
   }
   return files;
