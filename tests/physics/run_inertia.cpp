@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct Fast {
   const char* shape;
   double youngs, poisson, density, radius, depth, rate, force, most;
 };
+
+void PrintTo(const Fast& fast, std::ostream* out) { *out << fast.force << " mN"; }
 
 class FastPresses : public testing::TestWithParam<Fast> {};
 
