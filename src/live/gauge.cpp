@@ -28,7 +28,7 @@ constexpr double told_tare = 0.1;     // of `start_force`
 constexpr double given_up = 0.5;      // of the travel asked for: a withdrawal after it ends the run
 constexpr double still = 10.0;        // s without motion in contact, which no step asks for
 constexpr double moved = 0.02;        // of the deepest travel: less is no motion
-constexpr double unasked = 5.0;       // s without a press, after which what it waits for is said
+constexpr double silent = 5.0;        // s without a press, after which what it waits for is said
 
 // Mean and standard deviation of readings; those of a long time, about the last hundred.
 class Readings {
@@ -167,7 +167,7 @@ class GaugeLoop {
       write(sample);
     } else {
       begun_ = begins(sample);
-      if (begun_ || told_ || loop_.clock.now() - start_ < unasked) return;
+      if (begun_ || told_ || loop_.clock.now() - start_ < silent) return;
       told_ = true;
       loop_.say("waiting for the force to rise by " + awaited());
     }

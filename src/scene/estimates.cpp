@@ -46,7 +46,7 @@ double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration)
   return sum;
 }
 
-// m/s.
+// Of shear waves, m/s.
 double shear_speed(const scenario::Resolved::Tissue& tissue) {
   return std::sqrt(tissue.young_modulus / (2.0 * (1.0 + tissue.poisson_ratio) * tissue.density));
 }
@@ -207,9 +207,13 @@ bool carries_waves(const scenario::Resolved& scenario, const SurfaceTouch& touch
     return false;
   if (refines(scenario)) return true;
   double cell = std::cbrt(touch.size.prod() / expected_nodes(scenario.tissue.mesh));
-  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh))
+  const auto of_cells = [&](const std::array<int, 3>& cells) {
     for (int axis = 0; axis < 3; ++axis)
-      cell = std::max(cell, touch.size[axis] / kuhn->cells[as_index(axis)]);
+      cell = std::max(cell, touch.size[axis] / cells[as_index(axis)]);
+  };
+  if (const auto* kuhn = std::get_if<scenario::Kuhn>(&scenario.tissue.mesh)) of_cells(kuhn->cells);
+  if (const auto* mirrored = std::get_if<scenario::Mirrored>(&scenario.tissue.mesh))
+    of_cells(mirrored->cells);
   return cell <= longest_for_waves(scenario);
 }
 

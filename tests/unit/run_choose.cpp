@@ -208,6 +208,20 @@ TEST(Choose, InertiaBelowTheToleranceIsStated) {
   EXPECT_EQ(moving.waves, 0.0);
 }
 
+// A mesh that the scenario gives is not refined for waves: one of coarse cells states all of them.
+TEST(Choose, ACoarseLatticeDoesNotCarryWaves) {
+  const auto stated = [](const std::string& kind, const char* cells) {
+    return choose(read(press +
+                       "rate = \"300 mm/s\"\n[tissue]\nviscosity = \"none\"\nmesh = { kind = \"" +
+                       kind + "\", cells = " + cells +
+                       " }\n[solver]\nmodel = \"coupled_springs\"\n"))
+        .taken()
+        ->error;
+  };
+  for (const char* kind : {"kuhn", "mirrored"})
+    EXPECT_GT(stated(kind, "[2, 2, 2]"), 3.0 * stated(kind, "[24, 24, 12]")) << kind;
+}
+
 // A slow press leaves viscosity out, a quick one keeps it.
 TEST(Choose, ViscosityBelowAFifthOfTheToleranceIsDropped) {
   const std::string solid =
