@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "contact/point_loads.h"
 #include "geometry/smooth_surface.h"
 
 namespace palpate::contact {
@@ -119,21 +120,12 @@ class PatchField {
              const Vec3& along = -Vec3::UnitZ());
 
   [[nodiscard]] FieldValue at(const Vec3& point) const;  // m, from the patch's centre
-  [[nodiscard]] Vec3 displacement(const Vec3& point) const;
 
  private:
-  struct PointLoad {
-    double x = 0.0, y = 0.0;  // m
-    double share = 0.0;
-  };
-  [[nodiscard]] const std::vector<PointLoad>& loads_for(const Vec3& point) const;
-  [[nodiscard]] Vec3 dragged(const Vec3& point) const;  // m/N, the displacement
-  [[nodiscard]] Eigen::Matrix3d drag_stress(const Vec3& point) const;
-
   HalfSpace half_space_;
   Vec3 along_;
-  double reach_ = 0.0;                           // m, the longer semi-axis
-  std::array<std::vector<PointLoad>, 3> loads_;  // for far, near and nearest points
+  double reach_ = 0.0;               // m, the longer semi-axis
+  std::array<PointLoads, 3> loads_;  // for far, near and nearest points
 };
 
 // Size of the wide patch in semi-axes of the contact, and its least size in spacings of the

@@ -53,7 +53,7 @@ class EnergyCoupling::Loads {
   }
 
   [[nodiscard]] Vec3 displacement(int node) const {
-    return axes_ * field_.displacement(local(mesh_->nodes[as_index(node)]));
+    return axes_ * field_.at(local(mesh_->nodes[as_index(node)])).displacement;
   }
 
   void add(const Face& face, const integrate::Vector& interpolated) {

@@ -2,7 +2,7 @@
 // knows no more than its compliance and that a contact can only push; orders in the time step.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/dense.h"
 #include "contact/hertz.h"
 #include "contact/viscous_contact.h"
 
@@ -276,7 +277,7 @@ class HalfSpace {
       if (!at.empty()) {
         const MatrixXd within = A_(at, at);
         const VectorXd wanted = gain * target(at) + past(at);
-        const VectorXd pressures = within.partialPivLu().solve(wanted);
+        const VectorXd pressures = dense::least_squares(within, wanted);
         p(at) = pressures;
       }
       u = (A_ * p - past) / gain;

@@ -2,10 +2,11 @@
 // and how near springs come to a tetrahedron without it.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "base/cholesky.h"
+#include "base/dense.h"
 #include "base/index.h"
 #include "jittered_block.h"
 #include "tissue/stiffness.h"
@@ -180,8 +181,8 @@ TEST(Volume, LeavesSpringsDefiniteOnlyNearAQuarter) {
     for (const Volume volume : both_volumes) {
       const SplitMatrix matrix =
           tissue::stiffness_matrix(hybrid(mesh, stiffness, {tissue}, volume)).split(held);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(test::dense(matrix));
-      EXPECT_EQ(dense.eigenvalues()[0] > 0.0, nu > 0.1) << nu << " " << static_cast<int>(volume);
+      const double lowest = dense::symmetric_modes(test::dense(matrix)).values[0];
+      EXPECT_EQ(lowest > 0.0, nu > 0.1) << nu << " " << static_cast<int>(volume);
       Cholesky factors;
       EXPECT_EQ(factors.factor(matrix), nu > 0.1) << nu << " " << static_cast<int>(volume);
     }

@@ -1,10 +1,10 @@
 // Penetrations that balance: one scalar equation, and several contacts against Newton's method.
+#include "base/dense.h"
 #include "contact/balance.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "contact/hertz.h"
@@ -127,7 +127,7 @@ std::vector<double> newton(const Bed& bed) {
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j < n; ++j)
         slope(i, j) += bed.compliance(i, j) * bed.laws[static_cast<std::size_t>(j)].stiffness(h[j]);
-    const Eigen::VectorXd move = -slope.partialPivLu().solve(r);
+    const Eigen::VectorXd move = -dense::least_squares(slope, r);
     double part = 1.0;
     while (part > 1e-6 && residual(h + part * move).norm() > r.norm()) part *= 0.5;
     h += part * move;

@@ -35,7 +35,7 @@ TEST(PatchField, SinksAsHertzsContactOnTheAverage) {
   for (int i = 0; i < 40; ++i) {
     const double r = (i + 0.5) / 40.0;
     const double own = r * std::sqrt(1.0 - r * r);
-    sum -= own * field.displacement({r * a * std::cos(0.3), r * a * std::sin(0.3), 0.0}).z();
+    sum -= own * field.at({r * a * std::cos(0.3), r * a * std::sin(0.3), 0.0}).displacement.z();
     weight += own;
   }
   const double plane_modulus = 2.0 * shear * (1.0 + nu) / (1.0 - nu * nu);
@@ -66,8 +66,8 @@ TEST(PatchField, StressFollowsFromTheDisplacementByHookesLaw) {
                               Vec3(0.0, 5e-3, -4e-3), Vec3(30e-3, 20e-3, -3e-3)}) {
       Eigen::Matrix3d gradient;
       for (int axis = 0; axis < 3; ++axis)
-        gradient.col(axis) = (field.displacement(point + step * Vec3::Unit(axis)) -
-                              field.displacement(point - step * Vec3::Unit(axis))) /
+        gradient.col(axis) = (field.at(point + step * Vec3::Unit(axis)).displacement -
+                              field.at(point - step * Vec3::Unit(axis)).displacement) /
                              (2.0 * step);
       const Eigen::Matrix3d stress = lame * gradient.trace() * Eigen::Matrix3d::Identity() +
                                      soft.shear_modulus * (gradient + gradient.transpose());
@@ -120,9 +120,9 @@ TEST(PatchField, IsSymmetricBetweenLoads) {
     for (const Vec3& second : directions) {
       const PatchField one(2e-3, 2e-3, soft, 1, first);
       const PatchField other(2e-3, 2e-3, soft, 1, second);
-      const double there = one.displacement(apart).dot(second);
-      const double here = other.displacement(-apart).dot(first);
-      EXPECT_NEAR(there, here, 1e-9 * one.displacement(apart).norm());  // rounding
+      const double there = one.at(apart).displacement.dot(second);
+      const double here = other.at(-apart).displacement.dot(first);
+      EXPECT_NEAR(there, here, 1e-9 * one.at(apart).displacement.norm());  // rounding
     }
 }
 
@@ -138,12 +138,12 @@ TEST(PatchField, MovesAsMindlinsContactOnTheAverage) {
       const double r = (i + 0.5) / 40.0;
       const double angle = std::numbers::pi * (j + 0.3) / 8.0;
       const double own = r * std::sqrt(1.0 - r * r);
-      sum += own * field.displacement(r * a * Vec3(std::cos(angle), std::sin(angle), 0.0)).x();
+      sum += own * field.at(r * a * Vec3(std::cos(angle), std::sin(angle), 0.0)).displacement.x();
       weight += own;
     }
   const double unit = (2.0 - soft.poisson_ratio) / (soft.shear_modulus * a);
   EXPECT_NEAR(sum / weight / unit, 0.15, 0.02 * 0.15);  // points near point loads
-  EXPECT_NEAR(field.displacement(Vec3::Zero()).x() / unit, 3.0 / 16.0, 0.02 * 3.0 / 16.0);
+  EXPECT_NEAR(field.at(Vec3::Zero()).displacement.x() / unit, 3.0 / 16.0, 0.02 * 3.0 / 16.0);
 }
 
 }  // namespace
