@@ -133,6 +133,34 @@ Cells read_cells(const std::string& path) {
   return read_vtu_cells(path);
 }
 
+std::vector<std::array<Vec3, 3>> faces_of_group(const std::string& path, const std::string& group,
+                                                double metres_per_unit) {
+  const Cells cells = holds_cells(path) ? read_cells(path) : Cells{};
+  std::map<int, std::string> known;
+  for (const auto& groups : cells.face_groups)
+    for (const int number : groups) known[number] = std::to_string(number);
+  for (const auto& [name, number] : cells.face_names) known[number] = name;
+  std::vector<std::array<Vec3, 3>> found;
+  for (std::size_t f = 0; f < cells.face_groups.size(); ++f) {
+    if (std::none_of(cells.face_groups[f].begin(), cells.face_groups[f].end(), [&](int number) {
+          return group == known.at(number) || group == std::to_string(number);
+        }))
+      continue;
+    const std::vector<int>& face = cells.faces[f];
+    const auto corner = [&](std::size_t k) -> Vec3 {
+      return cells.nodes[as_index(face[k])] * metres_per_unit;
+    };
+    for (std::size_t k = 1; k + 1 < face.size(); ++k)
+      found.push_back({corner(0), corner(k), corner(k + 1)});
+  }
+  if (!found.empty()) return found;
+  std::vector<std::string> names;
+  for (const auto& [number, name] : known) names.push_back("`" + name + "`, ");
+  throw InputError({path}, "there is no group of faces `" + group + "`; `tissue.base_side` wants " +
+                               joined(names, "") + (names.empty() ? "" : "or ") +
+                               "a direction such as `-z`");
+}
+
 bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells) {
   if (std::find(std::begin(vtk_passed_over), std::end(vtk_passed_over), type) !=
       std::end(vtk_passed_over))

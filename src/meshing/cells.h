@@ -22,9 +22,11 @@ struct Cell {
 struct Cells {
   std::vector<Vec3> nodes;  // in the file's unit
   std::vector<Cell> solids;
-  std::vector<std::vector<int>> faces;  // corners, counter-clockwise from outside
-  std::map<std::string, int> names;     // regions of solids by the names of their groups
-  bool curved = false;                  // some cells have nodes besides their corners
+  std::vector<std::vector<int>> faces;        // corners, counter-clockwise from outside
+  std::vector<std::vector<int>> face_groups;  // of Gmsh and MEDIT, per face; else empty
+  std::map<std::string, int> names;           // regions of solids by the names of their groups
+  std::map<std::string, int> face_names;
+  bool curved = false;  // some cells have nodes besides their corners
 };
 
 // A mesh with the names of its regions, and a sentence on what was made of the file's cells.
@@ -46,6 +48,13 @@ struct NamedMesh {
 // .mesh of MEDIT. Throws InputError, with file and line where there are lines.
 [[nodiscard]] bool holds_cells(const std::string& path);
 [[nodiscard]] Cells read_cells(const std::string& path);
+
+// The triangles of the faces of a group of a Gmsh or MEDIT file, by its name or number; a polygon
+// is a fan. Throws InputError for another file, and for a group that it does not have, with those
+// that it has.
+[[nodiscard]] std::vector<std::array<Vec3, 3>> faces_of_group(const std::string& path,
+                                                              const std::string& group,
+                                                              double metres_per_unit);
 
 // The readers. All numbers of nodes in the result are in range, and all coordinates finite.
 // Gmsh: version 1 in ASCII, 2.2 or 4.1 in ASCII or binary of either byte order, elements of any

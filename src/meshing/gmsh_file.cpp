@@ -176,13 +176,15 @@ class GmshReader {
       const int tag = std::abs(whole("the physical tag"));
       const std::string_view line = lines_.text();
       const std::size_t open = line.find('"'), close = line.rfind('"');
-      if (dimension == 3 && close > open)
-        cells_.names[std::string(line.substr(open + 1, close - open - 1))] = tag;
+      if (dimension < 2 || close <= open) continue;
+      (dimension == 3 ? cells_.names
+                      : cells_.face_names)[std::string(line.substr(open + 1, close - open - 1))] =
+          tag;
     }
     binary_ = before;
   }
 
-  // Reads the physical group of each volume.
+  // Reads the physical group of each volume and surface.
   void read_entities() {
     std::array<std::int64_t, 4> totals{};
     begin(4);
@@ -200,6 +202,7 @@ class GmshReader {
         // A negative tag means that the group reverses the element, which has no effect here.
         for (std::int64_t g = 0; g < groups; ++g) {
           const int group = std::abs(whole("the physical tag"));
+          if (dimension == 2) surface_groups_[entity].push_back(group);
           if (dimension == 3) volume_region_[entity] = group;
         }
         if (dimension == 0) continue;
@@ -257,7 +260,7 @@ class GmshReader {
          "; mesh again with tetrahedra of first or second order");
   }
 
-  void add_element(const GmshKind& kind, int region, bool of_8_bytes) {
+  void add_element(const GmshKind& kind, const std::vector<int>& groups, bool of_8_bytes) {
     std::vector<int> corners;
     for (int n = 0; n < kind.nodes; ++n) {
       const std::int64_t tag = of_8_bytes ? wide("a node") : whole("a node");
@@ -271,9 +274,10 @@ class GmshReader {
     cells_.curved = cells_.curved || (kind.dimension == 3 && kind.nodes > kind.corners);
     if (kind.dimension == 2) {
       cells_.faces.push_back(std::move(corners));
+      cells_.face_groups.push_back(groups);
       return;
     }
-    Cell cell{.corners = kind.corners, .region = region};
+    Cell cell{.corners = kind.corners, .region = groups.front()};
     std::copy(corners.begin(), corners.end(), cell.nodes.begin());
     cells_.solids.push_back(cell);
   }
@@ -296,7 +300,7 @@ class GmshReader {
           const int tag = whole("a tag");
           if (t == 0) region = std::abs(tag);
         }
-        add_element(kind, region, false);
+        add_element(kind, {region}, false);
       }
     }
   }
@@ -311,12 +315,13 @@ class GmshReader {
       const int entity = whole("the entity's tag");
       const GmshKind& kind = kind_of(whole("the element's type"));
       const auto total = count("the number of elements", true);
-      const auto known = volume_region_.find(entity);
-      const int region = known == volume_region_.end() ? 0 : known->second;
+      std::vector<int> groups{0};
+      if (kind.dimension == 2 && surface_groups_.contains(entity)) groups = surface_groups_[entity];
+      if (kind.dimension == 3 && volume_region_.contains(entity)) groups = {volume_region_[entity]};
       for (std::int64_t i = 0; i < total; ++i) {
         begin(1 + as_index(kind.nodes));
         (void)wide("the element's tag");
-        add_element(kind, region, true);
+        add_element(kind, groups, true);
       }
     }
   }
@@ -326,7 +331,9 @@ class GmshReader {
   std::string section_;
   std::size_t word_ = 0;  // the next one of a line
   bool version_1_ = false, version_4_ = false, binary_ = false, big_endian_ = false;
-  std::unordered_map<int, int> volume_region_;  // the physical tag of each volume that has one
+  // The physical tags of each surface and volume that has some.
+  std::unordered_map<int, std::vector<int>> surface_groups_;
+  std::unordered_map<int, int> volume_region_;
   std::unordered_map<std::int64_t, int> node_of_tag_;
   Cells cells_;
 };

@@ -298,7 +298,7 @@ class MeditReader {
   void faces(int count) {
     for (int left = whole("the number of faces"); left > 0; --left) {
       cells_.faces.push_back(corners(count));
-      (void)whole("the reference");
+      cells_.face_groups.push_back({whole("the reference")});
     }
   }
 

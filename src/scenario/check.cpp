@@ -218,7 +218,6 @@ class Checker {
     if (up.empty()) problem("tissue.shape.up", "`up` is empty; write it as `z`");
     asked("tissue.shape.up", up);
     asked("finger.towards", finger.towards);
-    asked("tissue.base_side", scenario_.tissue.base_side);
     if (!finger.at.empty() && finger.at.size() != 3)
       problem("finger.at", "`at` wants three lengths, got " + std::to_string(finger.at.size()) +
                                "; write it as `[\"1 mm\", \"2 mm\", \"3 mm\"]`");

@@ -482,9 +482,10 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.choice_or(auto_bases, {"base", "How the base of the specimen is supported.", use.based},
                     tissue.base, bases);
   visitor.text({"base_side",
-                "The side of a body from a file that is held, a direction in its coordinates, as "
-                "`up` of `tissue.shape`; `base_height` is then along the opposite direction. "
-                "Default: the underside.",
+                "The side of a body from a file that is held: a direction in its coordinates, as "
+                "`up` of `tissue.shape`, or the name or number of a group of faces of a Gmsh or "
+                "MEDIT file. "
+                "`base_height` is then along the opposite direction. Default: the underside.",
                 use.held},
                tissue.base_side);
   visitor.quantity_or(

@@ -129,7 +129,7 @@ struct PlainTissue {
   Mesh mesh = Mirrored{};
   tissue::Viscosity viscosity = tissue::Viscosity::kelvin_voigt;
   std::vector<Branch> branches;       // for `prony`
-  std::string base_side;              // the direction of the held side; empty: down
+  std::string base_side;              // the held side: a direction or a group of faces; empty: down
   std::optional<double> base_height;  // m; empty: the flat underside, or else a tenth of the height
 };
 struct Tissue : PlainTissue {

@@ -105,62 +105,6 @@ std::shared_ptr<const geometry::SmoothSurface> unturned(const scenario::Resolved
   return std::make_shared<const geometry::SmoothSurface>(geometry::skin(mesh).surface);
 }
 
-}  // namespace
-
-void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
-                    SpecimenShapes& shapes) {
-  if (!from_file(scenario)) return;
-  const Vec3 up = up_of(scenario);
-  scenario::Resolved::Finger& finger = scenario.finger;
-  Vec3 towards = direction_or(finger.towards, -up);
-  Vec3 place = Vec3::Zero();
-  if (finger.at.size() == 3 && !scenario.uniform()) {
-    const auto surface = unturned(scenario, folder, shapes);
-    if (!surface) return;
-    place = Vec3(finger.at[0], finger.at[1], finger.at[2]);
-    const geometry::Near near = geometry::BoxTree(surface->surface()).nearest(place);
-    const geometry::SurfacePoint at{near.triangle, near.weights};
-    place = surface->position(at);
-    if (finger.towards.empty()) towards = -surface->normal(at);
-  }
-  const Eigen::Matrix3d turn = turn_up(scenario.uniform() ? up : Vec3(-towards));
-  scenario.tissue.turn = turn;
-  const Vec3 base_up = -direction_or(scenario.tissue.base_side, -up);
-  // To the last bit along an axis of the scene, where the file's rounding is all that differs.
-  constexpr double rounding = 1e-6;
-  scenario.tissue.base_up = scenario.uniform() ? Vec3(Vec3::UnitZ()) : Vec3(turn * base_up);
-  for (const int axis : {0, 1, 2})
-    for (const double sign : {1.0, -1.0})
-      if (const Vec3 along = sign * Vec3::Unit(axis);
-          (scenario.tissue.base_up - along).norm() < rounding)
-        scenario.tissue.base_up = along;
-  for (scenario::Resolved::Region& region : scenario.regions)
-    if (auto* lump = std::get_if<scenario::Lump>(&region.part)) {
-      const Vec3 centre = turn * Vec3(lump->centre[0], lump->centre[1], lump->centre[2]);
-      lump->centre = {centre.x(), centre.y(), centre.z()};
-    }
-  if (finger.at.size() == 3 && !scenario.uniform()) {
-    const Vec3 turned = turn * place;
-    finger.x = turned.x();
-    finger.y = turned.y();
-  }
-}
-
-Eigen::Matrix3d standing(const scenario::Resolved& scenario) { return turn_up(up_of(scenario)); }
-
-Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places) {
-  const Eigen::Matrix3d back = scenario.tissue.turn.transpose();
-  Box box{back * places.front(), back * places.front()};
-  for (const Vec3& place : places) {
-    const Vec3 own = back * place;
-    box.low = box.low.cwiseMin(own);
-    box.high = box.high.cwiseMax(own);
-  }
-  return box;
-}
-
-namespace {
-
 // The height of the flat underside at `low`, with the rounding of a file; nothing where the lowest
 // triangles are facets of a round body: a small part of its surface with blunt edges around it.
 std::optional<double> flat_underside(const geometry::Surface& body, const Vec3& up, double low) {
@@ -198,7 +142,111 @@ std::optional<double> flat_underside(const geometry::Surface& body, const Vec3& 
   return std::nullopt;
 }
 
+// The outward direction of a group of faces of the body's file, which becomes the base.
+Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
+                   SpecimenShapes& shapes) {
+  const auto surface = unturned(scenario, folder, shapes);
+  if (!surface) return Vec3::Zero();
+  const auto faces = faces_of_base(scenario, folder);
+  const geometry::Surface& body = surface->surface();
+  const geometry::BoxTree tree(body);
+  Vec3 outwards = Vec3::Zero();
+  double own = 0.0;
+  for (const auto& [a, b, c] : faces) {
+    const double area = 0.5 * (b - a).cross(c - a).norm();
+    const int nearest = tree.nearest((a + b + c) / 3.0).triangle;
+    outwards += area * geometry::twice_area(body, nearest).normalized();
+    own += area;
+  }
+  const std::string base =
+      "the faces of the group `" + scenario.tissue.base_side + "` of `tissue.base_side` ";
+  if (outwards.norm() < 0.5 * own)
+    throw MeshError(base +
+                    "look in many directions, so that they are no side that can be held; "
+                    "name a flatter group");
+  outwards.normalize();
+  double height = -HUGE_VAL;
+  for (const auto& face : faces)
+    for (const Vec3& corner : face) height = std::max(height, -corner.dot(outwards));
+  const double rounding = 1e-6 * std::sqrt(own);
+  double beyond = 0.0;
+  for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
+    const auto& [a, b, c] = body.triangles[as_index(t)];
+    const Vec3 middle =
+        (body.vertices[as_index(a)] + body.vertices[as_index(b)] + body.vertices[as_index(c)]) /
+        3.0;
+    if (-middle.dot(outwards) <= height + rounding)
+      beyond += 0.5 * geometry::twice_area(body, t).norm();
+  }
+  constexpr double allowed = 0.1;
+  if (std::abs(beyond - own) > allowed * own)
+    throw MeshError(base + "have " + rounded_text(1e6 * own) +
+                    " mm^2, but the surface beyond the " +
+                    "plane through them, which would be held, has " + rounded_text(1e6 * beyond) +
+                    " mm^2; name a group that is the whole end of the body on one side");
+  double low = HUGE_VAL;
+  for (const Vec3& vertex : body.vertices) low = std::min(low, -vertex.dot(outwards));
+  if (!flat_underside(body, -outwards, low) || height > low + rounding)
+    scenario.tissue.base_height = std::max(low, height) + rounding;
+  return outwards;
+}
+
 }  // namespace
+
+void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
+                    SpecimenShapes& shapes) {
+  if (!from_file(scenario)) return;
+  const Vec3 up = up_of(scenario);
+  scenario::Resolved::Finger& finger = scenario.finger;
+  Vec3 towards = direction_or(finger.towards, -up);
+  Vec3 place = Vec3::Zero();
+  if (finger.at.size() == 3 && !scenario.uniform()) {
+    const auto surface = unturned(scenario, folder, shapes);
+    if (!surface) return;
+    place = Vec3(finger.at[0], finger.at[1], finger.at[2]);
+    const geometry::Near near = geometry::BoxTree(surface->surface()).nearest(place);
+    const geometry::SurfacePoint at{near.triangle, near.weights};
+    place = surface->position(at);
+    if (finger.towards.empty()) towards = -surface->normal(at);
+  }
+  const Eigen::Matrix3d turn = turn_up(scenario.uniform() ? up : Vec3(-towards));
+  scenario.tissue.turn = turn;
+  const std::string& side = scenario.tissue.base_side;
+  const Vec3 base_up = side.empty() || scenario::direction_of(side)
+                           ? Vec3(-direction_or(side, -up))
+                           : Vec3(-side_of_group(scenario, folder, shapes));
+  // To the last bit along an axis of the scene, where the file's rounding is all that differs.
+  constexpr double rounding = 1e-6;
+  scenario.tissue.base_up = scenario.uniform() ? Vec3(Vec3::UnitZ()) : Vec3(turn * base_up);
+  for (const int axis : {0, 1, 2})
+    for (const double sign : {1.0, -1.0})
+      if (const Vec3 along = sign * Vec3::Unit(axis);
+          (scenario.tissue.base_up - along).norm() < rounding)
+        scenario.tissue.base_up = along;
+  for (scenario::Resolved::Region& region : scenario.regions)
+    if (auto* lump = std::get_if<scenario::Lump>(&region.part)) {
+      const Vec3 centre = turn * Vec3(lump->centre[0], lump->centre[1], lump->centre[2]);
+      lump->centre = {centre.x(), centre.y(), centre.z()};
+    }
+  if (finger.at.size() == 3 && !scenario.uniform()) {
+    const Vec3 turned = turn * place;
+    finger.x = turned.x();
+    finger.y = turned.y();
+  }
+}
+
+Eigen::Matrix3d standing(const scenario::Resolved& scenario) { return turn_up(up_of(scenario)); }
+
+Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places) {
+  const Eigen::Matrix3d back = scenario.tissue.turn.transpose();
+  Box box{back * places.front(), back * places.front()};
+  for (const Vec3& place : places) {
+    const Vec3 own = back * place;
+    box.low = box.low.cwiseMin(own);
+    box.high = box.high.cwiseMax(own);
+  }
+  return box;
+}
 
 double base_level(const scenario::Resolved& scenario, const geometry::Surface& body) {
   if (scenario.tissue.base_height) return *scenario.tissue.base_height;

@@ -285,6 +285,17 @@ meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& fo
   return meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
 }
 
+std::vector<std::array<Vec3, 3>> faces_of_base(const Scenario& scenario,
+                                               const std::string& folder) {
+  const auto read = [&](const auto& file) {
+    return meshing::faces_of_group(path_in(folder, file.file), scenario.tissue.base_side,
+                                   metres_per(file.unit));
+  };
+  const auto* surface = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
+  return surface != nullptr ? read(*surface)
+                            : read(std::get<scenario::MeshFile>(scenario.tissue.mesh));
+}
+
 SpecimenMesh specimen_mesh(const Scenario& scenario, const std::string& folder,
                            const geometry::Surface* of_file) {
   SpecimenMesh made = any_mesh(scenario, folder, of_file);

@@ -1,6 +1,7 @@
 // The tetrahedra of a specimen from the shape, mesh and regions of a scenario.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,11 @@ void refuse_covered_lumps(const scenario::Resolved& scenario);
 
 // The mesh from the scenario's file, not turned, with the file's numbers of regions.
 [[nodiscard]] meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder);
+
+// The triangles of the group of faces that `tissue.base_side` names in the body's file, not turned.
+// Throws InputError if there is none.
+[[nodiscard]] std::vector<std::array<Vec3, 3>> faces_of_base(const scenario::Resolved& scenario,
+                                                             const std::string& folder);
 
 struct SpecimenMesh {
   geometry::TetMesh mesh;

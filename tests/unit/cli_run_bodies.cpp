@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -75,6 +76,59 @@ TEST_F(RunBodies, a_press_on_what_is_held_is_refused) {
                           "at = [\"12 mm\", \"6 mm\", \"12 mm\"]\ntowards = \"-x\"\n");
   EXPECT_EQ(ended.code, 5);
   EXPECT_TRUE(says(ended, "presses the side that the base holds")) << ended.err;
+}
+
+// A column as Gmsh writes its surface, whose end x = 0 is a group, and with y = 0 another one.
+TEST_F(RunBodies, a_group_of_faces_is_held_as_the_side_it_is) {
+  const geometry::Surface surface =
+      geometry::skin(
+          geometry::cuboid(Vec3(0.012, 0.012, 0.024), {2, 2, 4}, geometry::CellPattern::mirrored))
+          .surface;
+  std::string text =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 4 \"end\"\n2 5 "
+      "\"two ends\"\n$EndPhysicalNames\n$Nodes\n" +
+      std::to_string(surface.vertices.size()) + "\n";
+  for (std::size_t n = 0; n < surface.vertices.size(); ++n) {
+    text += std::to_string(n + 1);
+    for (const double x : surface.vertices[n]) text += " " + number_text(x);
+    text += "\n";
+  }
+  text += "$EndNodes\n$Elements\n" + std::to_string(surface.triangles.size()) + "\n";
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto on = [&](int axis) {
+      return std::all_of(surface.triangles[t].begin(), surface.triangles[t].end(), [&](int corner) {
+        return surface.vertices[as_index(corner)][axis] < 1e-9;
+      });
+    };
+    text += std::to_string(t + 1) + " 2 2 " + (on(0) ? "4" : on(1) ? "5" : "0") + " 1";
+    for (const int corner : surface.triangles[t]) text += " " + std::to_string(corner + 1);
+    text += "\n";
+  }
+  write_file(folder_ / "column.msh", text + "$EndElements\n");
+  const std::string shape = "shape = { kind = \"file\", file = \"column.msh\", unit = \"m\" }\n";
+  const std::string top = "at = [\"6 mm\", \"6 mm\", \"24 mm\"]\n";
+  Ended ended = run("base_side = \"-x\"\n" + shape, top);
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const double by_direction = force();
+  ended = run(shape, top);
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_GT(std::abs(force() - by_direction), 0.01 * by_direction);
+  for (const char* group : {"end", "4"}) {
+    ended = run("base_side = \"" + std::string(group) + "\"\n" + shape, top);
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(force(), by_direction) << group;
+  }
+  // Half of an end is none.
+  std::string half = text + "$EndElements\n";
+  for (int k = 0; k < 8; ++k) half.replace(half.find(" 2 2 4 1 "), 9, " 2 2 6 1 ");
+  write_file(folder_ / "column.msh", half);
+  ended = run("base_side = \"4\"\n" + shape, top);
+  EXPECT_EQ(ended.code, 5);
+  EXPECT_TRUE(says(ended, "name a group that is the whole end of the body on one side"))
+      << ended.err;
+  ended = run("base_side = \"left\"\n" + shape, top);
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(says(ended, "there is no group of faces `left`")) << ended.err;
 }
 
 // An icosphere of 80 facets on one of them is held by its lowest tenth, as the ball is.

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "meshing/cells.h"
 
 namespace palpate::meshing {
 namespace {
@@ -84,6 +86,42 @@ TEST_F(GmshFile, all_versions_give_the_same_mesh) {
     EXPECT_EQ(geometry::signed_volume(mesh, 1), 1.0 / 3.0);  // turned round
     EXPECT_EQ(mesh.regions, (std::vector<int>{7, 3}));
   }
+}
+
+TEST_F(GmshFile, groups_of_faces_have_numbers_and_names) {
+  const std::string named =
+      "$PhysicalNames\n2\n2 11 \"under side\"\n3 7 \"skin\"\n$EndPhysicalNames\n";
+  const std::array<Vec3, 3> face{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0)};
+  for (const std::string& text : {kVersion1, kHead2 + named + kNodes2 + kElements2,
+                                  kHead4 + named + kEntities4 + kNodes4 + kElements4}) {
+    write_atomically(path_, text);
+    for (const char* group : {"11", "under side"}) {
+      if (text == kVersion1 && std::string(group) != "11") continue;
+      const auto found = faces_of_group(path_, group, 1.0);
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_EQ(found.front(), face);
+    }
+  }
+  const auto complaint = [&](const char* group) -> std::string {
+    try {
+      (void)faces_of_group(path_, group, 1.0);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(path_.size());
+    }
+    return "no error";
+  };
+  EXPECT_EQ(complaint("yy"),
+            ": there is no group of faces `yy`; `tissue.base_side` wants `under side`, "
+            "or a direction such as `-z`");
+  // A surface in two groups belongs to both.
+  std::string both = kEntities4;
+  const std::string once = "1 0 0 0 1 1 0 1 11 1 1";
+  both.replace(both.find(once), once.size(), "1 0 0 0 1 1 0 2 11 12 1 1");
+  write_atomically(path_, kHead4 + both + kNodes4 + kElements4);
+  EXPECT_EQ(faces_of_group(path_, "11", 1e-3), faces_of_group(path_, "12", 1e-3));
+  write_atomically(path_, kHead2 + kNodes2 + "$Elements\n1\n4 4 2 7 1 10 20 30 40\n$EndElements\n");
+  EXPECT_EQ(complaint("7"),
+            ": there is no group of faces `7`; `tissue.base_side` wants a direction such as `-z`");
 }
 
 TEST_F(GmshFile, units_become_metres) { EXPECT_EQ(read(kVersion4, 1e-3).nodes[4].x(), 1e-3); }
