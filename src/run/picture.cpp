@@ -77,6 +77,41 @@ geometry::Body given_body(const scene::Scene& scene) {
   return body;
 }
 
+// Cuts the faces of the surface along the plane where `up` times the place is `level`.
+std::vector<Face> cut(const std::vector<Face>& all, const Vec3& up, double level, double rounding) {
+  std::vector<Face> found;
+  for (const Face& face : all) {
+    std::array<double, 3> heights{};
+    for (std::size_t i = 0; i < 3; ++i) heights[i] = face.corners[i].dot(up) - level;
+    const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+    if (face.within >= 0 || *lowest >= -rounding || *highest <= rounding) {
+      found.push_back(face);
+      continue;
+    }
+    std::array<std::vector<Vec3>, 2> sides;  // below and above
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t next = (i + 1) % 3;
+      if (heights[i] <= rounding) sides[0].push_back(face.corners[i]);
+      if (heights[i] >= -rounding) sides[1].push_back(face.corners[i]);
+      if (std::min(heights[i], heights[next]) >= -rounding ||
+          std::max(heights[i], heights[next]) <= rounding)
+        continue;
+      // From below, so that the face beyond the edge has the same point to the last bit.
+      const std::size_t low = heights[i] < 0.0 ? i : next;
+      const std::size_t high = i + next - low;
+      const double share = heights[low] / (heights[low] - heights[high]);
+      const Vec3 between = face.corners[low] + share * (face.corners[high] - face.corners[low]);
+      for (auto& side : sides) side.push_back(between);
+    }
+    for (const auto& side : sides)
+      for (std::size_t i = 1; i + 1 < side.size(); ++i) {
+        found.push_back(face);
+        found.back().corners = {side[0], side[i], side[i + 1]};
+      }
+  }
+  return found;
+}
+
 std::vector<Face> faces(const geometry::Body& body, const scenario::Resolved& scenario) {
   std::vector<Face> found;
   for (const geometry::Part& part : body.parts)
@@ -85,14 +120,24 @@ std::vector<Face> faces(const geometry::Body& body, const scenario::Resolved& sc
       for (std::size_t i = 0; i < 3; ++i)
         one.corners[i] = part.surface.vertices[as_index(triangle[i])];
       one.region = part.region;
-      const bool skin = &part == &body.parts.front();
-      if (!skin) one.within = 0;
-      const double height = (one.corners[0] + one.corners[1] + one.corners[2]).z() / 3.0;
-      for (std::size_t i = 0; skin && i < scenario.regions.size(); ++i)
-        if (const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part))
-          if (height > slab->bottom && height < slab->top) one.region = static_cast<int>(i) + 1;
+      if (&part != &body.parts.front()) one.within = 0;
       found.push_back(one);
     }
+  for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
+    const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part);
+    if (slab == nullptr) continue;
+    const double rounding = 1e-6 * (slab->top - slab->bottom);
+    for (const double level : {slab->bottom, slab->top})
+      found = cut(found, Vec3::UnitZ(), level, rounding);
+    for (Face& face : found) {
+      const auto& [a, b, c] = face.corners;
+      // On a boundary of the layer the tissue behind the face decides.
+      const double height =
+          (a + b + c).z() / 3.0 - 2.0 * rounding * (b - a).cross(c - a).normalized().z();
+      if (face.within < 0 && height > slab->bottom && height < slab->top)
+        face.region = static_cast<int>(i) + 1;
+    }
+  }
   return found;
 }
 
@@ -138,6 +183,7 @@ void mark_held(const scenario::Resolved& scenario, std::vector<Face>& all) {
   }
   const scene::Box box = scene::box_of(skin.vertices);
   const double level = scene::base_level(scenario, skin) + 1e-9 * (box.high - box.low).norm();
+  all = cut(all, scenario.tissue.base_up, level, 1e-6 * (box.high - box.low).norm());
   for (Face& face : all) {
     const Vec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
     face.held = face.within < 0 && middle.dot(scenario.tissue.base_up) <= level;

@@ -1,0 +1,63 @@
+// What a picture of a scene shows: faces that end where the support and the layers end.
+#include "run/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scene_text.h"
+
+namespace palpate::run {
+namespace {
+
+using Face = record::ScenePicture::Face;
+
+std::array<double, 2> heights(const Face& face) {
+  std::array<double, 3> z{};
+  for (std::size_t i = 0; i < 3; ++i) z[i] = face.corners[i].z();
+  const auto [low, high] = std::minmax_element(z.begin(), z.end());
+  return {*low, *high};
+}
+
+// A lying cylinder of 60 mm is held up to 6 mm.
+TEST(Picture, TheSupportEndsAtItsHeight) {
+  const record::ScenePicture picture =
+      picture_of(test::scene_of("[tissue]\nshape = { kind = \"cylinder\" }\n[solver]\nmodel = "
+                                "\"solid\"\n[[step]]\nkind = \"indent\"\n"));
+  double area = 0.0, held = 0.0;
+  for (const Face& face : picture.faces) {
+    const auto [low, high] = heights(face);
+    if (face.held)
+      EXPECT_LE(high, 6e-3 + 1e-7);
+    else
+      EXPECT_GE(low, 6e-3 - 1e-7);
+    const auto& [a, b, c] = face.corners;
+    const double own = 0.5 * (b - a).cross(c - a).norm();
+    area += own;
+    held += face.held ? own : 0.0;
+  }
+  // Of the round surface acos(0.8)/pi; of each end the segment.
+  const double r = 30.0, l = 80.0, angle = std::acos(0.8);
+  const double of_ends = 2.0 * r * r * (angle - 0.8 * 0.6);
+  EXPECT_NEAR(held / area, (2.0 * r * l * angle + of_ends) / (2.0 * M_PI * r * (l + r)), 0.002);
+}
+
+TEST(Picture, ALayerEndsAtItsHeight) {
+  const record::ScenePicture picture = picture_of(
+      test::scene_of("[tissue]\nshape = { kind = \"cuboid\" }\n[[region]]\nkind = \"slab\"\n"
+                     "bottom = \"0 mm\"\ntop = \"17 mm\"\nyoung_modulus = \"50 kPa\"\n"
+                     "[solver]\nmodel = \"solid\"\n[[step]]\nkind = \"indent\"\n"));
+  int of_layer = 0;
+  for (const Face& face : picture.faces) {
+    const auto [low, high] = heights(face);
+    of_layer += face.region == 1 ? 1 : 0;
+    if (face.region == 1)
+      EXPECT_LE(high, 17e-3 + 1e-7);
+    else
+      EXPECT_GE(low, 17e-3 - 1e-7);
+  }
+  EXPECT_GT(of_layer, 4);
+}
+
+}  // namespace
+}  // namespace palpate::run
