@@ -52,7 +52,7 @@ th, td { border-bottom: 1px solid var(--line); padding: .25rem .8rem .25rem 0; t
 .words { min-width: 24rem; }
 code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--card);
   padding: .8rem; overflow-x: auto; overflow-wrap: normal; } code { background: var(--card); }
-summary { cursor: pointer; } summary h2 { display: inline-block; border: 0; margin: .4rem 0; padding: 0; }
+summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
 .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
