@@ -288,8 +288,8 @@ TEST(Verdict, SaysThatNothingExplainsAnotherLaw) {
             std::string::npos);
 }
 
-// A softer tissue that relaxes in 2 s looks like a late gauge, and friction with drift like a higher
-// surface: what one cause leaves of them says that it may be another.
+// A softer tissue that relaxes in 2 s looks like a late gauge, and friction with drift like a
+// higher surface: what one cause leaves of them says that it may be another.
 TEST(Verdict, IsNotSureOfACauseThatLeavesMuch) {
   const auto expect_not_sure = [](const Verdict& verdict) {
     EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs);
