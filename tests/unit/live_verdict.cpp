@@ -92,6 +92,10 @@ TEST_P(WrongRun, IsFoundAndNamed) {
     EXPECT_EQ(verdict.outcome, Verdict::Outcome::differs) << seed;
     EXPECT_EQ(verdict.causes, GetParam().causes) << seed << " " << verdict_sentence(verdict);
     EXPECT_TRUE(verdict.explained) << seed;
+    // A specimen that is touched before the first row has relaxed there.
+    if (GetParam().surface >= 0.0) {
+      EXPECT_TRUE(verdict.sure) << seed << " " << verdict_sentence(verdict);
+    }
   }
 }
 
@@ -125,6 +129,29 @@ INSTANTIATE_TEST_SUITE_P(
               [](double force) { return force + 0.1; },
               {Cause::wrong_tare, Cause::no_specimen}}),
     [](const auto& wrong) { return wrong.param.name; });
+
+// What a tare leaves within what is allowed, a little friction or drift, is no second fault and no
+// other one; noise makes it no less sure.
+TEST(Verdict, ATareIsTheOnlyFaultBesideSmallOnes) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto tared = [&](const std::function<double(std::size_t)>& more) {
+      MeasuredCurve curve = run_with(
+          0.0, [](double force) { return force + 0.2; }, seed);
+      for (std::size_t i = 0; i < curve.measured.size(); ++i) curve.measured[i] += more(i);
+      for (double& reading : curve.free) reading += more(0);
+      return judge(curve, tolerance);
+    };
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> scatter(0.0, 20e-3);
+    for (const Verdict& verdict :
+         {tared([](std::size_t i) { return i <= 100 ? 4e-3 : -4e-3; }),
+          tared([](std::size_t i) { return 6e-3 * static_cast<double>(i) / 150.0; }),
+          tared([&](std::size_t) { return scatter(generator); })}) {
+      EXPECT_EQ(verdict.causes, std::vector{Cause::wrong_tare}) << verdict_sentence(verdict);
+      EXPECT_TRUE(verdict.sure) << verdict_sentence(verdict);
+    }
+  }
+}
 
 TEST(Verdict, MeasuresHowFarTheSurfaceIsOff) {
   for (const double surface : {-0.4e-3, -0.2e-3, 0.2e-3, 0.4e-3, 0.8e-3}) {
@@ -286,6 +313,11 @@ TEST(Verdict, SaysThatNothingExplainsAnotherLaw) {
   EXPECT_FALSE(verdict.explained);
   EXPECT_NE(verdict_sentence(verdict).find("no single fault of gauge, stand or specimen"),
             std::string::npos);
+  const Verdict tared = judge(run_with(
+                                  0.0, [](double force) { return 5.0 * force * force + 0.1; }, 3),
+                              tolerance);
+  EXPECT_EQ(tared.causes, std::vector{Cause::wrong_tare}) << "is true by itself";
+  EXPECT_FALSE(tared.explained);
 }
 
 // A softer tissue that relaxes in 2 s looks like a late gauge, and friction with drift like a
