@@ -463,6 +463,17 @@ void draw(const std::string& file, const scene::Scene& scene, const std::string&
   write_atomically(file, page.html());
 }
 
+// Of more cases than `run` takes the first alone.
+scenario::Family read_or_outline(const std::string& path,
+                                 const std::vector<std::string>& settings) {
+  const std::string text = read_text(path);
+  const std::string name = path == "-" ? "stdin" : path;
+  scenario::Family family = scenario::outline_text(text, name, settings);
+  if (family.design.count() <= scenario::most_cases) return scenario::parse(text, name, settings);
+  family.cases = {scenario::make_case(family, 0)};
+  return family;
+}
+
 // What the cases of a sweep cost.
 void tell_cost(const scenario::Family& family, const Talk& talk) {
   const std::optional<sweep::SweepForecast> cost = sweep::forecast(family, false);
@@ -497,7 +508,7 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
       !command.picture.ends_with(".html"))
     throw InputError({command.picture, 0, 0},
                      "a picture is written as `.svg` or `.html`; give one of these endings");
-  const scenario::Family family = scenario::read(command.subject, command.settings);
+  const scenario::Family family = read_or_outline(subject, command.settings);
   for (const Problem& note : family.notes) Talk::error("note: " + note.text());
   const std::vector<scene::Scene> scenes = run::build_all(family, 1);
   for (const scene::Scene& scene : scenes) {
@@ -512,7 +523,7 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
       continue;
     }
     if (!first) print("\n");
-    print_text(explanation.text(scenes.size() > 1 ? scene.name : "", family.title));
+    print_text(explanation.text(family.design.count() > 1 ? scene.name : "", family.title));
   }
   if (!family.design.empty()) tell_cost(family, talk);
   return exit_good;

@@ -147,7 +147,8 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     throw SystemError(std::string(error.what()) + "; the rows written before are in " +
                       output.rows_file);
   }
-  for (const std::string& line : report::answer_lines({result.record})) talk.say(line);
+  if (!result.record.contact.empty())
+    for (const std::string& line : report::answer_lines({result.record})) talk.say(line);
   talk.say(folder.path() + ": " + rows + missing);
   talk.event("result", {{"scenario", family.name},
                         {"folder", folder.path()},

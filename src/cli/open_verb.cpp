@@ -30,7 +30,8 @@ std::vector<std::string> reports_below(const fs::path& folder) {
            at(folder, fs::directory_options::skip_permission_denied, error),
        end;
        !error && at != end; at.increment(error)) {
-    if (at->is_directory() && at->path().filename().string().find(".partial") != std::string::npos)
+    if (at->is_directory(error) &&
+        at->path().filename().string().find(".partial") != std::string::npos)
       at.disable_recursion_pending();
     else if (at->path().filename() == page::file_name)
       found.push_back(fs::relative(at->path(), folder).generic_string());

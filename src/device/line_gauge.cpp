@@ -66,7 +66,7 @@ LineGauge::LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap)
   if (!limits_.measures_travel)
     identity_.notes.push_back(
         "the lines have no travel: forces are recorded over time, without the model; `palpate "
-        "identify` reads them with `--x time_s`");
+        "identify` reads them with `--x time_s --origin 0`");
 }
 
 LineGauge::~LineGauge() {

@@ -139,7 +139,7 @@ std::vector<double> ways(const Rows& rows) {
 // One cause, with its value that explains the measured force best.
 struct Explanation {
   Cause cause = Cause::wrong_stiffness;
-  double rest = Verdict::unknown;   // N, rms that remains
+  double rest = std::numeric_limits<double>::infinity();  // N, rms that remains
   double value = Verdict::unknown;  // of the cause, in the unit that Verdict gives it
   double score = rest;              // the least is the best
 };
@@ -174,7 +174,7 @@ class Judgement {
     if (!small) {
       explain();
     } else {
-      found_.explained = true;
+      found_.explained = found_.sure = true;
       found_.outliers = far_readings(rows_.measured);
       if (found_.outliers > 0) found_.causes.push_back(Cause::outliers);
       if (noisy) found_.causes.push_back(Cause::noise);
@@ -298,30 +298,36 @@ class Judgement {
     if (most <= std::max(found_.allowed, 5.0 * found_.noise)) {
       if (tare) found_.causes.push_back(Cause::wrong_tare);
       found_.causes.push_back(Cause::no_specimen);
-      found_.explained = true;
+      found_.explained = found_.sure = true;
       return;
     }
     if (sign() < 0.0) found_.causes.push_back(Cause::wrong_sign);
     const std::vector<double> as_shown = corrected(sign(), 0.0);
     if (rest(as_shown) <= found_.allowed) {
-      found_.explained = true;
+      found_.explained = found_.sure = true;
       return;
     }
     Explanation best = best_of(as_shown);
     Explanation above_rest = best_of(zeroed);
     above_rest.score *= second_number;
     // An offset within what is allowed is no fault, and every cause may have it besides.
-    if (!tare && !(best.score <= above_rest.score)) best = above_rest;
+    if (!tare && above_rest.score < best.score) best = above_rest;
     const double left = rest(zeroed);
-    if (left <= found_.allowed && !(best.score < left)) best = {Cause::wrong_tare, left};
-    if (tare && !(best.rest <= found_.allowed)) {
+    if (left <= found_.allowed && left <= best.score) best = {Cause::wrong_tare, left};
+    if (tare && !is_sure(best) && above_rest.score <= best.score) {
       found_.causes.push_back(Cause::wrong_tare);
       best = above_rest;
     }
-    if (!(best.rest <= found_.allowed)) return;
+    if (best.rest > found_.allowed) return;
     found_.causes.push_back(best.cause);
     found_.explained = true;
+    found_.sure = is_sure(best);
     take(best);
+  }
+
+  // Another law of the specimen, or two faults, leave more beside what one fault explains of them.
+  [[nodiscard]] bool is_sure(const Explanation& one) const {
+    return square(one.rest) <= square(0.5 * found_.allowed) + square(found_.noise);
   }
 
   void take(const Explanation& best) {
@@ -337,19 +343,13 @@ class Judgement {
     }
   }
 
-  // The cause that leaves the least of the difference, among those that leave what is allowed; a
-  // surface only where it explains the press and no other cause the whole.
+  // The cause that leaves the least of the difference, among those that leave what is allowed.
   [[nodiscard]] Explanation best_of(const std::vector<double>& force) const {
     Explanation best;
     for (const Explanation& one :
          {by_outliers(force), by_stiffness(force), by_drift(force), by_friction(force),
-          by_lag(force), by_loss(force), by_ceiling(force)})
-      if (one.rest <= found_.allowed && !(best.score <= one.score)) best = one;
-    Explanation surface = by_surface(force);
-    surface.score = rest(force, moved(surface.value));
-    if (surface.rest <= found_.allowed && surface.score < 0.5 * rest(force) &&
-        !(best.score <= surface.score))
-      best = surface;
+          by_lag(force), by_loss(force), by_ceiling(force), by_surface(force)})
+      if (one.rest <= found_.allowed && one.score < best.score) best = one;
     return best;
   }
 
@@ -445,7 +445,7 @@ class Judgement {
         const double part = (time - rows_.time[k]) / (rows_.time[k + 1] - rows_.time[k]);
         return rows_.model[k] + part * (rows_.model[k + 1] - rows_.model[k]);
       });
-      if (!(best.rest <= left)) best = {Cause::lag, left, lag};
+      if (left < best.rest) best = {Cause::lag, left, lag};
     }
     return best;
   }
@@ -466,7 +466,7 @@ class Judgement {
       squares += change * (force[i] - mean);
       const double left =
           std::sqrt(std::max(0.0, before + squares) / static_cast<double>(rows_.size()));
-      if (in_contact(i) && !(best.rest <= left))
+      if (in_contact(i) && left < best.rest)
         best = {Cause::lost_force, left, rows_.time[i], second_number * left};
     }
     return best;
@@ -496,8 +496,8 @@ class Judgement {
     };
   }
 
-  // Shifts the model's press along the travel until it fits best. What remains is that of the
-  // press alone.
+  // Shifts the model's press along the travel until it fits best. What remains is that of the whole
+  // run.
   [[nodiscard]] Explanation by_surface(const std::vector<double>& force) const {
     const Press press(rows_);
     if (press.size() < 5) return {};
@@ -518,7 +518,7 @@ class Judgement {
     for (int i = 0; i < 30; ++i, width *= 0.7)
       for (const double shift : {best - width, best + width})
         if (left(shift) < left(best)) best = shift;
-    return {Cause::wrong_surface, left(best), best};
+    return {Cause::wrong_surface, rest(force, moved(best)), best};
   }
 
   Rows rows_;

@@ -53,6 +53,7 @@ struct Verdict {
   // Together they explain a difference. With an agreement: `noise` or `outliers`, or none.
   std::vector<Cause> causes = {};
   bool explained = false;    // whether they do so within what is allowed
+  bool sure = false;         // and leave too little for another cause beside them
   std::size_t outliers = 0;  // readings that are far off
 
   double peak = 0.0;            // N, largest force of the model
@@ -82,8 +83,9 @@ struct Verdict {
 // Judges a run: measured and model agree if the root mean square of their difference is at most
 // `tolerance` times the model's largest force, or twice the noise of the gauge if that is more, and
 // the press was as deep as asked. A difference is explained by the one cause that leaves the least
-// of it, if that is within what is allowed; otherwise by a tare and another cause. A turned sign
-// and a short press are seen by themselves. A value that the columns do not determine is NaN.
+// of it, if that is within what is allowed, or by a tare and another cause; it is not sure if it
+// leaves more than half of that. A turned sign and a short press are seen by themselves. A value
+// that the columns do not determine is NaN.
 [[nodiscard]] Verdict judge(const MeasuredCurve& curve, double tolerance);
 
 // One line for people, without a full stop.

@@ -106,6 +106,10 @@ std::string verdict_sentence(const Verdict& verdict) {
   for (const Cause cause : verdict.causes) text += "; " + cause_clause(cause, verdict);
   if (verdict.outcome == Verdict::Outcome::differs && !verdict.explained)
     text += "; no single fault of gauge, stand or specimen explains it";
+  else if (!verdict.sure)
+    text +=
+        "; that leaves more than half of what is allowed, so that it cannot be told from "
+        "another relaxation of the specimen or from two faults at once";
   return text;
 }
 
@@ -115,7 +119,10 @@ std::vector<record::Finding> verdict_findings(const Verdict& verdict) {
   std::string causes;
   for (const Cause cause : verdict.causes)
     causes += std::string(causes.empty() ? "" : " ") + names[static_cast<std::size_t>(cause)];
-  if (!verdict.explained) causes += causes.empty() ? "unexplained" : " unexplained";
+  if (!verdict.explained)
+    causes += causes.empty() ? "unexplained" : " unexplained";
+  else if (!verdict.sure)
+    causes += " unsure";
   std::vector<record::Finding> findings;
   findings.push_back({"measured_verdict", verdict.outcome == Outcome::agrees
                                               ? std::string("agrees")

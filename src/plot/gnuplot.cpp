@@ -285,12 +285,15 @@ struct KeptRows {
   // What is plotted of a series, without `using` its y.
   [[nodiscard]] std::string x_of(const Series& series) const {
     if (names.empty())
-      return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":(";
+      return gnuplot_quoted(series.csv_file) + " using " + x_expression(series) + ":";
     return "$rows using ($1 == " + std::to_string(names.find("|" + series.case_name + "|") + 1) +
-           " ? $2 : NaN):(";
+           " ? $2 : NaN):";
   }
+  // The number of a column alone takes gnuplot no system calls for each row, as an expression does.
   [[nodiscard]] std::string y_of(const Series& series) const {
-    return scaled(series.scale, names.empty() ? gnuplot_column(series.y_column) : "$3");
+    if (!names.empty() && series.scale == 1.0) return "3";
+    const std::string y = names.empty() ? gnuplot_column(series.y_column) : "$3";
+    return "(" + scaled(series.scale, y) + ")";
   }
 };
 
@@ -326,13 +329,13 @@ std::string data_line(const Figure& figure, const Legend& legend, const KeptRows
   const std::string width = figure.bar ? "1.8" : "3.5";
   // What was measured is drawn as points, what was computed as a line.
   if (series.y_column.starts_with("measured_"))
-    return kept.x_of(series) + kept.y_of(series) + ") with points linewidth 1.2 linecolor rgb '#" +
+    return kept.x_of(series) + kept.y_of(series) + " with points linewidth 1.2 linecolor rgb '#" +
            look.colour + "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
   if (series.dashed)
     return kept.x_of(series) + kept.y_of(series) +
-           ") with lines linewidth 2 dashtype (7,4) linecolor rgb '#" + look.colour + "' title " +
+           " with lines linewidth 2 dashtype (7,4) linecolor rgb '#" + look.colour + "' title " +
            gnuplot_quoted(label(series));
-  return kept.x_of(series) + kept.y_of(series) + ") with linespoints linewidth " + width +
+  return kept.x_of(series) + kept.y_of(series) + " with linespoints linewidth " + width +
          " linecolor rgb '#" + look.colour + "'" + point_style(look.marker) +
          (figure.bar || legend.lines == 0 ? " notitle" : " title " + gnuplot_quoted(label(series)));
 }

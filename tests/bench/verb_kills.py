@@ -118,7 +118,7 @@ CALLS = {
     "device probe": ([DONE], ["device", "probe", "replay:out/s/force_indentation.csv"]),
     "device monitor": ([DONE], ["device", "monitor", "replay:out/s/force_indentation.csv"]),
     "new": ([["new", "press", "n.toml"]], ["new", "creep", "n.toml", "--force"]),
-    "open": ([DONE], ["open", "out/s"]),
+    "open results": ([DONE], ["open", "out/s"]),
     "manual": ([], ["manual"]),
     "schema": ([], ["schema"]),
     "completion": ([], ["completion", "bash"]),

@@ -188,6 +188,8 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   ASSERT_EQ(live.ended.code, 0) << live.ended.err;
   EXPECT_TRUE(has(live.ended.err, "the lines have no travel: forces are recorded over time"))
       << live.ended.err;
+  EXPECT_TRUE(has(live.ended.err, "reads them with `--x time_s --origin 0`")) << live.ended.err;
+  EXPECT_FALSE(has(live.ended.err, "Peak force")) << live.ended.err;
   ASSERT_GT(live.rows.size(), 40u);
   EXPECT_NEAR(live.rows.number(0, "time_s"), 0.2, 0.1);  // an eighth of 100 mN, at 2 mm/s
   const Ended identified =

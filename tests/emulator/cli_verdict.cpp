@@ -64,15 +64,17 @@ INSTANTIATE_TEST_SUITE_P(
                           "wrong surface: the specimen begins 0.39 mm lower"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 
-// A gauge of 10 N scatters by a thousandth of its range: readings that touch nothing are not taken
-// for contact.
+// A gauge of 10 N scatters by a thousandth of its range, and nobody has tared it: readings that
+// touch nothing are not taken for contact.
 TEST(LiveVerdict, TheSurfaceIsFoundInNoise) {
   for (const char* seed : {"1", "2", "3"}) {
     const test::TemporaryFolder folder;
     test::LiveEmulator emulator(
         {"mark10", "--clock", "virtual", "--seed", seed, "--tissue",
          test::project_file("scenarios/emulator/stand_tissue.toml"), "--stand",
-         folder.file("stand.toml", "[gauge]\nfilter = 0\nnoise = \"3 mN\"\n")});
+         folder.file("stand.toml", "[gauge]\nfilter = 0\nnoise = \"3 mN\"\n"), "--fault",
+         folder.file("tare.toml",
+                     "[[fault]]\nkind = \"spike\"\nat = \"0 s\"\nvalue = \"60 mN\"\n")});
     const test::Ended ended =
         test::palpate(folder.path(), {"run", test::project_file("scenarios/device_stand.toml"),
                                       "--device", "mark10:" + emulator.port(), "--arm", "--clock",

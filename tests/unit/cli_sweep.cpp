@@ -261,6 +261,14 @@ TEST_F(SweepVerb, ExplainSaysTheCost) {
   const Ended said = palpate(folder_.path(), {"explain", "s.toml"});
   EXPECT_EQ(said.code, 0);
   EXPECT_NE(said.out.find("by `palpate sweep`: 6 cases, about "), std::string::npos);
+  // Of more cases than `run` takes, the first is explained.
+  const Ended many =
+      palpate(folder_.path(),
+              {"explain", "s.toml", "--set",
+               "sweep={\"tissue.young_modulus\"={from=\"1 kPa\",to=\"9 kPa\",points=5000}}"});
+  EXPECT_EQ(many.code, 0) << many.err;
+  EXPECT_NE(many.out.find("by `palpate sweep`: 5000 cases, about "), std::string::npos);
+  EXPECT_LT(many.out.size(), 2 * said.out.size());
 }
 
 TEST_F(SweepVerb, SlurmTakesAProgramAndAPrologue) {

@@ -179,6 +179,7 @@ TEST_F(Gnuplot, ReadsTheFileOfManyCasesOnce) {
   };
   const std::string once = drawn(" ");
   EXPECT_EQ(count(read("figure_force_indentation.gp"), "'force_indentation.csv'"), 1U);
+  EXPECT_EQ(count(read("figure_force_indentation.gp"), " ? $2 : NaN):3 with "), 12U);
   const std::string each = drawn("|");
   EXPECT_EQ(count(read("figure_force_indentation.gp"), "'force_indentation.csv'"), 12U);
   EXPECT_EQ(once, each);
