@@ -254,6 +254,28 @@ StepOrigin step_origin(std::span<const double> given_x, std::span<const double> 
   return found;
 }
 
+std::size_t rows_before_recovery(std::span<const double> x, std::span<const double> y) {
+  if (y.empty()) return 0;
+  const double noise = noise_of(y);
+  const double rise = *std::max_element(y.begin(), y.end()) - y[0];
+  std::size_t peak = 0;
+  std::size_t from = 0;  // of the recovery
+  double clear = 0.0;
+  for (; from < y.size(); ++from) {
+    if (y[from] > y[peak]) peak = from;
+    const double risen = y[peak] - y[0];
+    clear = std::max(0.25 * risen, 6.0 * noise);
+    const auto below = [&](std::size_t i) { return i >= y.size() || y[peak] - y[i] > clear; };
+    if (risen > 0.1 * rise && below(from) && below(from + 1) && below(from + 2)) break;
+  }
+  if (from == y.size()) return from;
+  std::size_t to = from;  // where the next creep begins, if there is one
+  for (double least = y[from]; to < y.size() && y[to] - least <= clear; ++to)
+    least = std::min(least, y[to]);
+  const double corner = step_origin(x.first(to), y.first(to), AfterStep::recovers, 0.0).best.first;
+  return as_index(std::count_if(x.begin(), x.end(), [&](double each) { return each <= corner; }));
+}
+
 std::optional<Misfit> misfit_of(const std::function<Fit()>& fit) {
   try {
     const Fit found = fit();
