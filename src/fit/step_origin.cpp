@@ -83,7 +83,7 @@ Peak peak_of(const Record& record, double noise) {
 }
 
 // The last row of the first level, from whose mean y goes on to differ in at least three rows. Only
-// a level of at least three rows is one.
+// a level of at least four rows is one.
 std::size_t row_of_departure(const Record& record, double noise) {
   const auto [least, most] = std::minmax_element(record.y.begin(), record.y.end());
   const double clear = std::max(5.0 * noise, 0.02 * (*most - *least));
@@ -302,7 +302,7 @@ StepOrigin refined(const StepOrigin& coarse, std::span<const double> given_x,
   const auto at = [&](double time) -> At {
     const std::size_t rows = as_index(std::lower_bound(begin, record.x.end(), time) - begin);
     const auto fit = fit_after({time, 0.0, time});
-    if (rows == 0 || !fit) return {};
+    if (!fit) return {};
     double mean = 0.0, squares = fit->squares;
     for (std::size_t i = 0; i < rows; ++i) mean += record.y[i] / static_cast<double>(rows);
     for (std::size_t i = 0; i < rows; ++i) squares += (record.y[i] - mean) * (record.y[i] - mean);
