@@ -74,6 +74,25 @@ TEST(BoxErrors, OfAProductOnlyTheProductIsDetermined) {
   EXPECT_NEAR(found->std_error / found->estimate, 0.01 / std::sqrt(14.0), 1e-6);
 }
 
+// E / (1 - nu^2) is named only where the loose direction keeps it, and only of a Poisson's ratio.
+TEST(BoxErrors, HertzsModulusIsNamedWhereItIsDetermined) {
+  const auto text = [](const char* other, double slope) {
+    const std::vector<Unknown> unknowns{
+        unknown("tissue.young_modulus", 1e3, 1e5, Unknown::Scale::logarithmic),
+        unknown(other, 0.2, 0.49, Unknown::Scale::linear)};
+    const std::vector<double> u{0.5, 0.5};
+    const BoxErrors errors =
+        box_errors(std::vector{std::log(100.0), slope, 0.0, 0.0}, 2, white(1e-3), 2.0);
+    return combination(errors, unknowns, u, 2.0).value().text;
+  };
+  const double nu = 0.345;
+  const double slope = 2.0 * nu / (1.0 - nu * nu) * 0.29;  // d ln(1 / (1 - nu^2)) / du
+  EXPECT_EQ(text("tissue.poisson_ratio", slope),
+            "tissue.young_modulus / (1 - tissue.poisson_ratio^2)");
+  EXPECT_EQ(text("tissue.poisson_ratio", 2.0 * slope).find("1 - "), std::string::npos);
+  EXPECT_EQ(text("tissue.shape.size.3", slope).find("1 - "), std::string::npos);
+}
+
 // Noise below a hundred-thousandth has no meaning, and neither has a slope below a millionth of the
 // steepest; the weakest directions that are asked for are loose in any case.
 TEST(BoxErrors, WhatIsTooSmallToCount) {
