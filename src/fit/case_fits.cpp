@@ -15,9 +15,8 @@ struct Curve {
 
 class CaseFits {
  public:
-  CaseFits(const scenario::Resolved& scenario, const record::CaseRecord& record,
-           Residuals residuals)
-      : scenario_(scenario), record_(record), residuals_(residuals) {}
+  CaseFits(const scenario::Resolved& scenario, const record::CaseRecord& record)
+      : scenario_(scenario), record_(record) {}
 
   std::vector<NamedFit> all() {
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
@@ -38,8 +37,7 @@ class CaseFits {
     return 0;
   }
 
-  void add(const std::string& name, const Curve& curve, Model model, Options options) {
-    options.residuals = residuals_;
+  void add(const std::string& name, const Curve& curve, Model model, const Options& options) {
     try {
       fits_.push_back({record_.name, name, regress(curve.x, curve.y, model, options)});
     } catch (const InputError&) {  // a curve with too few points is left out
@@ -99,15 +97,14 @@ class CaseFits {
 
   const scenario::Resolved& scenario_;
   const record::CaseRecord& record_;
-  Residuals residuals_;
   std::vector<NamedFit> fits_;
 };
 
 }  // namespace
 
 std::vector<NamedFit> case_fits(const scenario::Resolved& scenario,
-                                const record::CaseRecord& record, Residuals residuals) {
-  return CaseFits(scenario, record, residuals).all();
+                                const record::CaseRecord& record) {
+  return CaseFits(scenario, record).all();
 }
 
 }  // namespace palpate::fit
