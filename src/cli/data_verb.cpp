@@ -7,9 +7,11 @@
 #include "base/files.h"
 #include "base/numerics.h"
 #include "base/text.h"
+#include "cli/fit_models.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/contact_model.h"
+#include "fit/loading_part.h"
 #include "fit/uniaxial.h"
 #include "measured/columns.h"
 #include "measured/measured.h"
@@ -108,49 +110,86 @@ std::string quoted(const std::string& word) {
   return plain ? word : "\"" + word + "\"";
 }
 
-// Whether a straight line, behind a toe if there is one, leaves less scatter than a round tip's
-// law.
-bool is_straight(const measured::MeasuredCurve& curve, double scatter) {
-  try {
-    return unit::kPa.to_si(fit::fit_uniaxial(curve.x, curve.y, {.toe = true}).rmse) < scatter;
-  } catch (const InputError&) {  // several loadings, or no rise
-    return false;
-  }
+using Uniaxial = fit::UniaxialTest::Model;
+using Loading = fit::UniaxialTest::Loading;
+
+// How often a specimen is loaded: `fit` asks which of several loadings it shall take.
+int loadings_of(std::vector<double> strain) {
+  double far = 0.0;
+  for (const double each : strain)
+    if (std::abs(each - strain[0]) > std::abs(far)) far = each - strain[0];
+  for (double& each : strain) each = std::copysign(1.0, far) * each;
+  int count = 0;
+  for (const fit::Branch& branch : fit::branches_of(strain)) count += branch.up ? 1 : 0;
+  return count;
 }
 
-// The root mean square that a large strain leaves, Pa or N: of nominal stress over strain, or of a
-// force over a length whose largest strain is `most`.
-double left_by_large_strain(const measured::MeasuredCurve& curve, fit::UniaxialTest test,
-                            std::optional<double> most = std::nullopt) {
-  std::vector<double> strain = curve.x;
-  const double scale = most ? *most / *std::max_element(strain.begin(), strain.end()) : 1.0;
-  for (double& each : strain) each *= scale;
+// ` --cycle 1`, where there are several loadings.
+std::string cycle_of(const std::vector<double>& strain) {
+  return loadings_of(strain) > 1 ? " --cycle 1" : "";
+}
+
+// The root mean square that a law leaves, Pa or N, on the first loading; infinite where it has no
+// fit.
+double left_by(const std::vector<double>& strain, const std::vector<double>& stress,
+               fit::UniaxialTest test) {
+  test.cycle = loadings_of(strain) > 1 ? 1 : 0;
   try {
-    return unit::kPa.to_si(fit::fit_uniaxial(strain, curve.y, test).rmse);
+    return unit::kPa.to_si(fit::fit_uniaxial(strain, stress, test).rmse);
   } catch (const InputError&) {
     return std::numeric_limits<double>::infinity();
   }
 }
 
-using Uniaxial = fit::UniaxialTest::Model;
-using Loading = fit::UniaxialTest::Loading;
-
-// Whether a force over a length is rather that of a compressed specimen, whose height is unknown.
-bool is_compressed(const measured::MeasuredCurve& curve, double scatter) {
-  const auto left = [&](double most) {
-    return left_by_large_strain(
-        curve, {.model = Uniaxial::neo_hookean, .loading = Loading::compression}, most);
-  };
-  return left(numerics::minimum({0.05, 0.9}, left)) < scatter;
+// Whether a straight line, behind a toe if there is one, leaves less scatter than a round tip's
+// law.
+bool is_straight(const measured::MeasuredCurve& curve, double scatter) {
+  return left_by(curve.x, curve.y, {.toe = true}) < scatter;
 }
 
-// Whether a stress over strain bends so much that a law of large strain leaves half the scatter.
-bool bends(const measured::MeasuredCurve& curve) {
-  const double line = left_by_large_strain(curve, {});
-  for (const Loading loading : {Loading::compression, Loading::tension})
-    if (left_by_large_strain(curve, {.model = Uniaxial::ogden, .loading = loading}) < 0.5 * line)
-      return true;
-  return false;
+// What describes a force over a length better than a round tip does: a specimen that is compressed,
+// whose height is unknown. Empty: nothing. Ogden's law has one parameter more.
+std::string compressed_law(const measured::MeasuredCurve& curve, double scatter) {
+  const std::size_t stride = 1 + curve.x.size() / 1000;  // the shape is that of fewer rows, too
+  std::vector<double> travel, force;
+  for (std::size_t i = 0; i < curve.x.size(); i += stride) {
+    travel.push_back(curve.x[i]);
+    force.push_back(curve.y[i]);
+  }
+  const double deepest = *std::max_element(travel.begin(), travel.end());
+  const auto left = [&](Uniaxial law, double most) {
+    std::vector<double> strain = travel;
+    for (double& each : strain) each *= most / deepest;
+    return left_by(strain, force, {.model = law, .loading = Loading::compression});
+  };
+  const auto neo_hookean = [&](double most) { return left(Uniaxial::neo_hookean, most); };
+  const double simple = neo_hookean(numerics::minimum({0.05, 0.9}, neo_hookean));
+  double stiffening = std::numeric_limits<double>::infinity();
+  for (const double most : {0.1, 0.3, 0.6})
+    stiffening = std::min(stiffening, left(Uniaxial::ogden, most));
+  if (stiffening < 0.5 * std::min(simple, scatter)) return "ogden --loading compression";
+  return simple < scatter ? "neo_hookean --loading compression" : "";
+}
+
+// A law of large strain where a stress over strain bends so much that it leaves half the scatter of
+// a line; with `--loading`, and both of them, where neither names nor signs tell which.
+struct LargeStrain {
+  std::string law, note;
+};
+LargeStrain large_strain(const measured::MeasuredCurve& curve) {
+  const auto [strain, loading] = strained(Fit(), curve);
+  const double line = left_by(strain, curve.y, {});
+  const auto ogden = [&](Loading each) {
+    return left_by(strain, curve.y, {.model = Uniaxial::ogden, .loading = each});
+  };
+  const std::string says =
+      "the stress bends away from a straight line, and a law of large strain describes all of "
+      "it: `--model ogden";
+  if (ogden(loading) < 0.5 * line) return {"ogden", says + "`"};
+  if (loading == Loading::unknown &&
+      std::min(ogden(Loading::compression), ogden(Loading::tension)) < 0.5 * line)
+    return {"", says + " --loading compression`, or `--loading tension`"};
+  return {};
 }
 
 // Contact point, baseline and noise of a force over a length. Both follow from the shape of a
@@ -164,13 +203,11 @@ std::string contact_lines(const measured::MeasuredCurve& curve, std::string& pla
   try {
     const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
     const bool straight = is_straight(curve, fit.rmse);
-    const bool compressed = !straight && !fit.gave_way && is_compressed(curve, fit.rmse);
+    if (!straight && !fit.gave_way) platens = compressed_law(curve, fit.rmse);
+    const bool compressed = !platens.empty();
     std::string text;
     const bool round = fit.r2 >= 0.9 && !fit.gave_way && !straight && !compressed;
-    if (compressed)
-      platens = "neo_hookean --loading compression";
-    else if (!round)
-      platens = "modulus";
+    if (!compressed && !round) platens = "modulus";
     Details details{{"round_tip", round},
                     {"straight", straight},
                     {"compressed", compressed},
@@ -234,9 +271,10 @@ measured::MeasuredCurve guessed_curve(const Data& command) {
   }
 }
 
-// What to type next for the dimensions of the two columns.
+// What to type next for the dimensions of the two columns; `law` is that of a specimen, if one is
+// found.
 std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
-                      const std::string& platens) {
+                      const std::string& law) {
   std::string line = "palpate fit " + quoted(command.data) + " --x " + quoted(curve.x_axis.column) +
                      " --y " + quoted(curve.y_axis.column);
   for (const std::string& note : curve.notes)
@@ -248,8 +286,9 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
   if (!curve.y_axis.has_unit) line += " --y-unit UNIT";
   const Dimension& x = curve.x_axis.dimension;
   const Dimension& y = curve.y_axis.dimension;
-  if (x == unit::mm.dimension && y == unit::N.dimension && !platens.empty())
-    return line + " --model " + platens + " --height \"... mm\" --area \"... mm^2\"";
+  if (x == unit::mm.dimension && y == unit::N.dimension && !law.empty())
+    return line + " --model " + law + cycle_of(curve.x) +
+           " --height \"... mm\" --area \"... mm^2\"";
   if (x == unit::mm.dimension && y == unit::N.dimension)
     return line + " --model hertz --radius \"... mm\" --poisson 0.5";
   if (x == unit::mm.dimension && y == unit::mm.dimension &&
@@ -264,7 +303,9 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
   const bool strain =
       curve.x_axis.has_unit || lower_case(curve.x_axis.column).find("strain") != std::string::npos;
   if (x == Dimension{} && y == unit::kPa.dimension && strain)
-    return line + " --model modulus --from \"0 %\" --to \"10 %\"";
+    return line +
+           (law.empty() ? " --model modulus --from \"0 %\" --to \"10 %\"" : " --model " + law) +
+           cycle_of(curve.x);
   return line + " --model power";
 }
 
@@ -290,7 +331,7 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
   for (const std::string& sentence : table.notes) note(sentence);
   for (std::size_t i = 0; i < table.width(); ++i) text += column_line(table, i, talk);
   text += segment_lines(table, talk);
-  std::string platens;
+  std::string law;
   try {
     const measured::MeasuredCurve curve = guessed_curve(command);
     text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
@@ -299,13 +340,20 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
       if (std::find(table.notes.begin(), table.notes.end(), sentence) == table.notes.end())
         note(sentence);
     if (curve.x_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension)
-      text += contact_lines(curve, platens, talk);
-    if (curve.x_axis.dimension == Dimension{} && curve.y_axis.dimension == unit::kPa.dimension &&
-        bends(curve))
-      note(
-          "the stress bends away from a straight line, and a law of large strain describes all of "
-          "it: `--model ogden --loading compression`, or `--loading tension`");
-    const std::string next = next_line(command, curve, platens);
+      text += contact_lines(curve, law, talk);
+    const bool stress = curve.x_axis.dimension == Dimension{} && curve.x_axis.has_unit &&
+                        curve.y_axis.dimension == unit::kPa.dimension;
+    if (stress) {
+      const LargeStrain found = large_strain(curve);
+      law = found.law;
+      if (!found.note.empty()) note(found.note);
+    }
+    const bool specimen = stress || !law.empty();
+    if (const int loadings = specimen ? loadings_of(curve.x) : 1; loadings > 1)
+      note("the curve has " + std::to_string(loadings) +
+           " loadings, which differ by what the ones before did to the specimen: `--cycle` "
+           "chooses one");
+    const std::string next = next_line(command, curve, law);
     text += "next: " + next + "\n";
     talk.event("next", {{"command", next}});
   } catch (const InputError& error) {

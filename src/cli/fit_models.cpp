@@ -211,6 +211,21 @@ fit::UniaxialTest::Loading loading_of(const Fit& command, const measured::Measur
   return Loading::unknown;
 }
 
+}  // namespace
+
+Strained strained(const Fit& command, const measured::MeasuredCurve& curve) {
+  Strained made{curve.x, loading_of(command, curve)};
+  if (!curve.x_axis.stretch) return made;
+  for (double& each : made.strain) each -= 1.0;
+  const auto far = [](double one, double other) { return std::abs(one) < std::abs(other); };
+  const double most = *std::max_element(made.strain.begin(), made.strain.end(), far);
+  if (made.loading == fit::UniaxialTest::Loading::unknown && most > 0.0)
+    made.loading = fit::UniaxialTest::Loading::tension;  // of stretches the sign tells
+  return made;
+}
+
+namespace {
+
 // Nominal stress of true (Cauchy) stress, and the strain of a logarithmic one, where the columns
 // are named so: P = sigma / L of an incompressible specimen.
 void take_nominal(const measured::MeasuredCurve& curve, std::vector<double>& strain,
@@ -253,22 +268,15 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
                                                 : Model::ogden3;
   test.cycle = command.cycle;
   test.toe = command.toe;
-  test.loading = loading_of(command, curve);
+  auto [strain, loading] = strained(command, curve);
+  test.loading = loading;
   test.residuals = fit::Residuals::correlated;
   test.from = strain_of("--from", command.from);
   test.to = strain_of("--to", command.to);
   if (test.from && test.to && !(*test.from < *test.to))
     refuse("`--from` is not below `--to`; give a range of strains");
 
-  std::vector<double> strain = curve.x;
   std::vector<double> stress = curve.y;
-  if (curve.x_axis.stretch) {
-    for (double& each : strain) each -= 1.0;
-    const auto far = [](double one, double other) { return std::abs(one) < std::abs(other); };
-    const double most = *std::max_element(strain.begin(), strain.end(), far);
-    if (test.loading == fit::UniaxialTest::Loading::unknown && most > 0.0)
-      test.loading = fit::UniaxialTest::Loading::tension;  // of stretches the sign tells
-  }
   if (curve.x_axis.dimension == unit::mm.dimension) {
     if (command.height.empty())
       wrong(curve.x_axis,
@@ -533,24 +541,27 @@ fit::Fit fit_over_time(const Fit& command, const measured::MeasuredCurve& curve,
 }
 
 // Takes the rows of the recovery off a record of creep; returns how many there are.
-std::size_t take_off_recovery(std::vector<double>& y) {
-  std::vector<double> finite;
-  for (const double each : y)
-    if (std::isfinite(each)) finite.push_back(each);
+std::size_t take_off_recovery(const std::vector<double>& x, std::vector<double>& y) {
+  std::vector<double> time, finite;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
+    time.push_back(x[i]);
+    finite.push_back(y[i]);
+  }
   if (finite.empty()) return 0;
   const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
   if (*most - finite[0] < finite[0] - *least) return 0;  // falls as it creeps
-  const std::size_t rows = fit::rows_before_fall(finite, 0.25);
+  const std::size_t rows = fit::rows_before_recovery(time, finite);
   std::size_t row = 0;
-  for (double& each : y)
-    if (std::isfinite(each) && ++row > rows) each = std::nan("");
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (std::isfinite(x[i]) && std::isfinite(y[i]) && ++row > rows) y[i] = std::nan("");
   return finite.size() - rows;
 }
 
 fit::Fit fitted_over_time(const Fit& command, const measured::MeasuredCurve& whole) {
   measured::MeasuredCurve curve = whole;
   const bool creeps = is_one_of(command.model, {"kelvin_voigt", "prony_creep", "spring_pot_creep"});
-  const std::size_t later = creeps ? take_off_recovery(curve.y_written) : 0;
+  const std::size_t later = creeps ? take_off_recovery(curve.x_written, curve.y_written) : 0;
   fit::StepOrigin origin = origin_of(command, curve);
   const bool relaxes = is_one_of(command.model, {"prony", "standard_linear_solid", "spring_pot"});
   const fit::Limit limit = relaxes ? fit::limit_of(curve.y_written) : fit::Limit();
@@ -584,8 +595,8 @@ fit::Fit fitted_over_time(const Fit& command, const measured::MeasuredCurve& who
   if (later > 0)
     result.notes.insert(result.notes.begin(),
                         std::to_string(later) +
-                            " points are left out: after the largest value, from which the curve "
-                            "falls as in a recovery; `kelvin_voigt_recovery` fits them");
+                            " points are left out: the curve falls there as in a recovery, which "
+                            "`kelvin_voigt_recovery` fits");
   if (limit.from < limit.to)
     result.notes.insert(result.notes.begin(),
                         std::to_string(limit.to - limit.from) +

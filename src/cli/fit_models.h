@@ -2,11 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/arguments.h"
 #include "fit/adhesive.h"
 #include "fit/contact_model.h"
 #include "fit/regression.h"
+#include "fit/uniaxial.h"
+#include "measured/measured.h"
 
 namespace palpate::cli {
 
@@ -18,6 +21,14 @@ namespace palpate::cli {
 // The test that the options describe. Throws InputError for unknown words, for a tip without its
 // size, and for options that contradict each other.
 [[nodiscard]] fit::ContactTest contact_test(const Fit& command);
+
+// The x of a curve as strain, where it is a stretch, and what the options, the names of the columns
+// or the signs tell of the loading.
+struct Strained {
+  std::vector<double> strain;
+  fit::UniaxialTest::Loading loading;
+};
+[[nodiscard]] Strained strained(const Fit& command, const measured::MeasuredCurve& curve);
 
 // Refuses unknown models, options that the model does not use, and models without their required
 // options. Throws InputError.

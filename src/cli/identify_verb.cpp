@@ -184,7 +184,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
 
   // Nothing is kept until the search has ended, so that an interrupt may end the program at once.
   identify::Identification found = identify::identify(pairs, unknowns, options);
-  identify::carry_givens(found, measured.front(), family, givens);
+  identify::carry_givens(found, measured.front(), family, givens, options.noise);
   for (const std::string& note : found.notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
   const std::string missing = warn_all(

@@ -2,6 +2,7 @@
 #include "fit/correlated.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -182,6 +183,36 @@ Blocks blocks_of(const Rows& rows, const Matrix& inverse) {
   }
 }
 
+// Shares of slow noise, and the logarithms of their weights before any residual is seen: Jeffreys's
+// prior, the root of Fisher's information about the share, on the part of [0, 1] that is nearest to
+// each. An even weight for each would count what cannot be told from white noise five times.
+//                            I(g) = sum_j (u_j - mean u)^2 / 2,  u = d ln S / d g,  Whittle 1953
+constexpr std::array shares{0.001, 0.003, 0.01, 0.03, 0.1, 0.25, 0.5, 0.75, 0.9, 0.97, 1.0};
+std::array<double, shares.size()> share_weights(const Eigen::VectorXd& slow) {
+  const Eigen::Index n = slow.size();
+  Eigen::VectorXd spectrum(n / 2);  // of the slow noise, of variance 1, over that of white noise
+  for (Eigen::Index j = 1; j <= n / 2; ++j) {
+    double sum = 1.0;
+    for (Eigen::Index k = 1; k < n; ++k)
+      sum += 2.0 * (1.0 - static_cast<double>(k) / static_cast<double>(n)) * slow[k] / slow[0] *
+             std::cos(2.0 * std::numbers::pi * static_cast<double>(j * k % n) /
+                      static_cast<double>(n));
+    spectrum[j - 1] = sum;
+  }
+  std::array<double, shares.size()> weights{};
+  double all = 0.0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const double low = i == 0 ? 0.0 : 0.5 * (shares[i - 1] + shares[i]);
+    const double high = i + 1 == shares.size() ? 1.0 : 0.5 * (shares[i] + shares[i + 1]);
+    const Eigen::ArrayXd slope =
+        (spectrum.array() - 1.0) / (1.0 - shares[i] + shares[i] * spectrum.array());
+    weights[i] = (high - low) * (slope - slope.mean()).matrix().norm();
+    all += weights[i];
+  }
+  for (double& each : weights) each = std::log(each / all);
+  return weights;
+}
+
 // A process that the residuals may be, with its weight among all.
 struct Process {
   double weight = 0.0;
@@ -207,21 +238,24 @@ std::vector<Process> processes(const Blocks& blocks, const Matrix& inverse, Eige
   }
   std::vector<Process> all;
   for (const auto& family : families)
-    for (const Eigen::VectorXd& slow : family)
-      for (const double share : {0.001, 0.003, 0.01, 0.03, 0.1, 0.25, 0.5, 0.75, 0.9, 0.97, 1.0}) {
-        Eigen::VectorXd covariance = share / slow[0] * slow;
+    for (const Eigen::VectorXd& slow : family) {
+      const auto weights = share_weights(slow);
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        Eigen::VectorXd covariance = shares[i] / slow[0] * slow;
         covariance[0] = 1.0;
         const Judged judged = judge(blocks.means, covariance);
         if (!std::isfinite(judged.minus_two_log)) continue;
         Process& one = all.emplace_back();
         // A family counts as much as the other.
-        one.weight = -0.5 * judged.minus_two_log - std::log(static_cast<double>(family.size()));
+        one.weight =
+            weights[i] - 0.5 * judged.minus_two_log - std::log(static_cast<double>(family.size()));
         Matrix product = Matrix::Zero(inverse.rows(), inverse.cols());
         for (Eigen::Index lag = 0; lag < n; ++lag)
           product += covariance[lag] * lagged[as_index(lag)];
         one.covariance = judged.variance / blocks.kept *
                          dense::product(dense::product(inverse, product), inverse);
       }
+    }
   double most = -std::numeric_limits<double>::infinity();
   for (const Process& one : all) most = std::max(most, one.weight);
   double sum = 0.0;

@@ -83,7 +83,7 @@ Peak peak_of(const Record& record, double noise) {
 }
 
 // The last row of the first level, from whose mean y goes on to differ in at least three rows. Only
-// a level of at least three rows is one.
+// a level of at least four rows is one.
 std::size_t row_of_departure(const Record& record, double noise) {
   const auto [least, most] = std::minmax_element(record.y.begin(), record.y.end());
   const double clear = std::max(5.0 * noise, 0.02 * (*most - *least));
@@ -254,6 +254,28 @@ StepOrigin step_origin(std::span<const double> given_x, std::span<const double> 
   return found;
 }
 
+std::size_t rows_before_recovery(std::span<const double> x, std::span<const double> y) {
+  if (y.empty()) return 0;
+  const double noise = noise_of(y);
+  const double rise = *std::max_element(y.begin(), y.end()) - y[0];
+  std::size_t peak = 0;
+  std::size_t from = 0;  // of the recovery
+  double clear = 0.0;
+  for (; from < y.size(); ++from) {
+    if (y[from] > y[peak]) peak = from;
+    const double risen = y[peak] - y[0];
+    clear = std::max(0.25 * risen, 6.0 * noise);
+    const auto below = [&](std::size_t i) { return i >= y.size() || y[peak] - y[i] > clear; };
+    if (risen > 0.1 * rise && below(from) && below(from + 1) && below(from + 2)) break;
+  }
+  if (from == y.size()) return from;
+  std::size_t to = from;  // where the next creep begins, if there is one
+  for (double least = y[from]; to < y.size() && y[to] - least <= clear; ++to)
+    least = std::min(least, y[to]);
+  const double corner = step_origin(x.first(to), y.first(to), AfterStep::recovers, 0.0).best.first;
+  return as_index(std::count_if(x.begin(), x.end(), [&](double each) { return each <= corner; }));
+}
+
 std::optional<Misfit> misfit_of(const std::function<Fit()>& fit) {
   try {
     const Fit found = fit();
@@ -280,7 +302,7 @@ StepOrigin refined(const StepOrigin& coarse, std::span<const double> given_x,
   const auto at = [&](double time) -> At {
     const std::size_t rows = as_index(std::lower_bound(begin, record.x.end(), time) - begin);
     const auto fit = fit_after({time, 0.0, time});
-    if (rows == 0 || !fit) return {};
+    if (!fit) return {};
     double mean = 0.0, squares = fit->squares;
     for (std::size_t i = 0; i < rows; ++i) mean += record.y[i] / static_cast<double>(rows);
     for (std::size_t i = 0; i < rows; ++i) squares += (record.y[i] - mean) * (record.y[i] - mean);

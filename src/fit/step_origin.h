@@ -60,6 +60,12 @@ struct Misfit {
     const StepOrigin& coarse, std::span<const double> x, std::span<const double> y,
     const std::function<std::optional<Misfit>(const Loading& loading)>& fit_after);
 
+// The number of rows of a creep up to the corner at which it begins to recover: before the first
+// three rows in a row (or as many as are left) that lie below the largest y until then by more than
+// a quarter of its rise and six deviations of the noise. All rows where there are none.
+[[nodiscard]] std::size_t rows_before_recovery(std::span<const double> x,
+                                               std::span<const double> y);
+
 // The standard deviation of white noise in y, from its second differences (median, so that steps
 // do not count); 0 for fewer than 5 values.
 [[nodiscard]] double noise_of(std::span<const double> y);

@@ -135,7 +135,6 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
       found.unit = unknowns[e].unit_text();
       return finish_by_logarithm(unknowns[e].shown(unknowns[e].value(u[e])) / (1.0 - nu * nu));
     }
-    gradient.assign(unknowns.size(), 0.0);
   }
 
   const bool powers = std::all_of(found.of.begin(), found.of.end(),

@@ -101,10 +101,10 @@ void set_givens(scenario::Family& family, const std::vector<Given>& givens) {
 }
 
 void carry_givens(Identification& found, const Measurement& measured,
-                  const scenario::Family& family, const std::vector<Given>& givens) {
+                  const scenario::Family& family, const std::vector<Given>& givens, Noise noise) {
   std::vector<Unknown> unknowns;
   for (const Identified& one : found.unknowns) unknowns.push_back(one.unknown);
-  const IdentifyOptions options{.searches = 1, .profiles = false};
+  const IdentifyOptions options{.noise = noise, .searches = 1, .profiles = false};
   std::vector<double> variance(unknowns.size(), 0.0);
   for (const Given& given : givens) {
     std::vector<std::vector<double>> ends;
@@ -129,7 +129,6 @@ void carry_givens(Identification& found, const Measurement& measured,
   constexpr double normal = 1.959963984540054;  // the quantile 0.975
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
     Identified& one = found.unknowns[i];
-    if (one.tied || one.at_bound) continue;
     const double spread = normal * std::sqrt(variance[i]);
     if (one.std_error) one.std_error = std::hypot(*one.std_error, std::sqrt(variance[i]));
     for (auto* end : {&one.ci95_low, &one.ci95_high, &one.profile_low, &one.profile_high})

@@ -31,6 +31,6 @@ void set_givens(scenario::Family& family, const std::vector<Given>& givens);
 // (docs/theory.md [givens]). The parts are kept in Identification::givens. `family` has the values
 // set.
 void carry_givens(Identification& found, const Measurement& measured,
-                  const scenario::Family& family, const std::vector<Given>& givens);
+                  const scenario::Family& family, const std::vector<Given>& givens, Noise noise);
 
 }  // namespace palpate::identify

@@ -101,13 +101,6 @@ class Preparation {
     return true;
   }
 
-  // Whether the press ends at a force, so that its depth depends on the unknowns.
-  [[nodiscard]] bool ends_at_force() const {
-    for (const scenario::Step& step : found_.curve->fixed().steps)
-      if (const auto* indent = std::get_if<scenario::Indent>(&step)) return indent->to.second;
-    return false;
-  }
-
   void note_left_out(int points, const std::string& why) {
     if (points == 0) return;
     found_.left_out += points;
@@ -134,8 +127,7 @@ class Preparation {
     const Unknown* contact = unknown_of(Unknown::What::contact_point);
     const bool travel = kind_ == CurveKind::force_travel;
     double end = rows->x.back() * (1.0 + 1e-9);
-    if (contact != nullptr)
-      end += ends_at_force() ? contact->low : contact->value(first[shift_of(contact)]);
+    if (contact != nullptr) end += contact->value(first[shift_of(contact)]);
     // If the finger withdraws, only the points up to the deepest travel are used.
     std::size_t count = measured_.x.size();
     if (travel && count > 0) {

@@ -160,9 +160,7 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
   };
   const int pressed = first<scenario::Indent>(fixed_);
   const int slid = first<scenario::Slide>(fixed_);
-  double slide_start = 0.0;
   for (const record::ContactRow& row : record.contact) {
-    if (row.step < slid) slide_start = row.slide;
     switch (kind_) {
       case CurveKind::force_travel:
         if (row.step <= pressed && (rows.x.empty() || row.travel > rows.x.back()))
@@ -170,7 +168,7 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
         break;
       case CurveKind::tangential_slide:
         if (row.step == slid && rows.x.empty()) add(0.0, 0.0);
-        if (row.step == slid) add(std::abs(row.slide - slide_start), row.tangential);
+        if (row.step == slid) add(std::abs(row.slide), row.tangential);
         break;
       case CurveKind::force_time: add(row.time, row.force); break;
       case CurveKind::strain_time:
@@ -211,9 +209,8 @@ bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
   const auto& x = model->x;
   for (std::size_t i = 0; i < x_.size(); ++i) {
     const double at = x_[i] - shift;
-    // Before the first row of a press there is no contact.
-    if (at < x.front()) {
-      out[i] = (grows ? 0.0 : gain * model->y.front()) + offset + tilt * x_[i];
+    if (at < x.front()) {  // in a press there is no contact yet, and the first row is 0
+      out[i] = gain * model->y.front() + offset + tilt * x_[i];
       continue;
     }
     const double end = x.back() + 1e-9 * std::abs(x.back()) + std::abs(shift_);  // 1e-9: rounding

@@ -126,8 +126,8 @@ bool is_usual(const std::string& name, Role role) {
        {"displacement", "extension", "compressive extension", "indentation", "depth", "crosshead",
         "compression", "travel", "pd", "penetration depth", "tip depth", "distance", "stroke"})
     if (role == Role::x && bare == word) return true;
-  for (const char* word :
-       {"load", "force", "compressive load", "normal force", "fn", "standard force"})
+  for (const char* word : {"load", "force", "compressive load", "normal force", "fn",
+                           "standard force", "stress", "shear stress"})
     if (role == Role::y && bare == word) return true;
   return false;
 }
@@ -153,10 +153,12 @@ std::size_t only_column(const RawTable& table, const DataLayout& layout, Role ro
     for (const std::string& usual : usual_names(table, role))
       for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i] == usual) return i;
-  std::vector<std::size_t> numeric;  // columns of words are no curve
+  std::vector<std::size_t> numeric;  // columns of words are no curve, nor are empty ones
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (measured_number(table.rows.front().fields[i].text, table.decimal) ||
-        measured_number(table.rows.back().fields[i].text, table.decimal))
+    if (std::any_of(table.rows.begin(), table.rows.end(), [&](const RawRow& row) {
+          const auto number = measured_number(row.fields[i].text, table.decimal);
+          return number && std::isfinite(*number);
+        }))
       numeric.push_back(i);
   for (std::size_t i = 0; i < names.size() && numeric.size() < 2; ++i)
     if (const Piece& word = table.rows.front().fields[i];
@@ -181,6 +183,11 @@ std::size_t only_column(const RawTable& table, const DataLayout& layout, Role ro
     for (std::size_t i = 0; i < names.size(); ++i)
       if (lower_case(names[i]).find("strain") != std::string::npos) fitting.push_back(i);
   if (fitting.size() == 1) return fitting.front();
+  // TRIOS counts `Run time` from the first step of a protocol and `Step time` from this one.
+  if (role == Role::x && timed)
+    for (const char* word : {"step time", "time"})
+      for (const std::size_t i : fitting)
+        if (lower_case(named_column(names[i]).bare) == word) return i;
   std::vector<std::size_t> usual;
   for (const std::size_t i : fitting)
     if (is_usual(names[i], role)) usual.push_back(i);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -29,6 +30,18 @@ char decimal_of(const std::string& word) {
   throw InputError({}, "palpate: `--decimal " + word + "` is unknown; give `.` or `,`");
 }
 
+// Whether words with blanks between them stand between tabs, as `Data point` does: blanks separate
+// no columns then.
+bool tabs_separate(const Line& line, const std::string& file) {
+  if (line.text.find('\t') == std::string::npos) return false;
+  const std::vector<Piece> pieces = pieces_of(line, '\t', file);
+  return std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) {
+    return piece.text.find(' ') != std::string::npos &&
+           std::any_of(piece.text.begin(), piece.text.end(),
+                       [](unsigned char each) { return std::isalpha(each) != 0; });
+  });
+}
+
 // The numbers of lines with only numbers (at least two), of lines with at least two numbers, and of
 // lines of several fields with at least one number, which count only where no line has two. Lines
 // count that have as many fields as most such lines: `Creep - 1` is a title.
@@ -42,6 +55,7 @@ Score score(std::span<const Line> lines, const Shape& shape, const std::string& 
   for (const Line& line : lines) {
     if (is_comment(line) || is_blank(line)) continue;
     try {
+      if (shape.separator == ' ' && tabs_separate(line, file)) continue;
       const std::vector<Piece> fields = pieces_of(line, shape.separator, file);
       const Numbers numbers = numbers_in(fields, shape.decimal);
       std::size_t width = fields.size();

@@ -127,11 +127,8 @@ NamedColumn named_column(std::string_view given) {
   if (const auto split = split_at(name.rfind(" / "), 3)) return *split;
   if (const auto split = split_at(name.rfind(" in "), 4)) return *split;
   if (const auto split = split_at(name.rfind(", "), 2)) return *split;
-  if (auto split = split_at(name.rfind(": "), 2)) return *split;
-  if (auto split = split_at(name.rfind(' '), 1)) {  // `Depth nm`, `Load: uN`
-    if (split->bare.ends_with(':')) split->bare.pop_back();
-    return *split;
-  }
+  if (const auto split = split_at(name.rfind(": "), 2)) return *split;
+  if (const auto split = split_at(name.rfind(' '), 1)) return *split;  // `Depth nm`
   if (const auto split = split_at(name.rfind('/'), 1)) return *split;
   return {name, std::nullopt};
 }

@@ -480,7 +480,7 @@ TEST(Identify, AnUncertainRadiusWidensTheInterval) {
   auto found = identify::identify(curve, family, unknowns, {.profiles = false});
   const double estimate = found.unknowns[0].estimate;
   const double before = *found.unknowns[0].std_error;
-  identify::carry_givens(found, curve, family, givens);
+  identify::carry_givens(found, curve, family, givens, identify::Noise::constant);
   ASSERT_EQ(found.givens.size(), 1U);
   const double part = found.givens[0].deviations[0];
   EXPECT_NEAR(part / estimate, 0.01, 1e-5);  // half of 2 %, to second order in 2 %

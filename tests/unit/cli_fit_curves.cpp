@@ -201,7 +201,40 @@ TEST_F(FitCurves, a_creep_with_a_jump_and_its_recovery) {
   EXPECT_TRUE(of("y_0").holds(1.0)) << said_;  // at the row after the step it is 1.02
   EXPECT_GT(of("y_0").estimate, 1.01);
   EXPECT_TRUE(of("tau_1").holds(5.0)) << said_;
-  EXPECT_TRUE(says("points are left out: after the largest value")) << said_;
+  EXPECT_TRUE(says("points are left out: the curve falls there as in a recovery")) << said_;
+}
+
+// 1 + 2 (1 - e^(-t/5)) % for 60 s. The largest of the noisy values lies anywhere in the hold, whose
+// rows are all of the creep; a single reading that falls out is no recovery.
+TEST_F(FitCurves, a_creep_is_fitted_to_the_end_of_its_hold) {
+  const std::vector<std::string> words{"--model", "prony_creep", "--terms", "1", "--origin", "0"};
+  const auto held = [](double t) { return 3.0 - 2.0 * std::exp(-t / 5.0); };
+  const auto recovering = [&](double t) {
+    return t < 60.0 ? held(t) : held(60.0) * std::exp(-(t - 60.0) / 8.0);
+  };
+  for (const double noise : {0.02, 0.1, 0.2}) {
+    table("time (s),strain (%)", 61, 1.0, held, noise);
+    fit("made.csv", words);
+    EXPECT_FALSE(says("left out")) << said_;
+    table(
+        "time (s),strain (%)", 61, 1.0, [&](double t) { return t == 40.0 ? 0.5 : held(t); }, noise);
+    fit("made.csv", words);
+    EXPECT_FALSE(says("left out")) << said_;
+    table("time (s),strain (%)", 141, 1.0, recovering, noise);
+    fit("made.csv", words);
+    const record::Table rows = record::read_csv((folder_ / "fit.csv").string());
+    // The corner is that of noisy rows.
+    EXPECT_NEAR(std::get<double>(rows.rows[0][static_cast<std::size_t>(rows.find("n"))]), 61.0, 2.0)
+        << said_;
+    EXPECT_TRUE(of("y_0").holds(1.0)) << noise;
+    EXPECT_TRUE(of("tau_1").holds(5.0)) << noise;
+  }
+  // A second creep after the recovery is none of the first one.
+  table(
+      "time (s),strain (%)", 201, 1.0,
+      [&](double t) { return t < 130.0 ? recovering(t) : 1.5 * held(t - 130.0); }, 0.02);
+  fit("made.csv", words);
+  EXPECT_NEAR(of("tau_1").estimate, 5.0, 0.3);
 }
 
 // A ramp of a millionth of a second is a step, with the same errors.
@@ -305,6 +338,60 @@ TEST_F(FitCurves, stretches_and_true_stresses) {
   EXPECT_NEAR(young("strain (-),true stress (kPa)", 0.0, 0.5,
                     [&](double x) { return (1.0 + x) * nominal(1.0 + x); }),
               12.0, 1e-3);
+}
+
+// Of a specimen that is loaded several times, and of stretches, `data` advises what `fit` takes.
+TEST_F(FitCurves, data_advises_what_fit_takes) {
+  const auto next = [&](const std::string& text) {
+    write_file(folder_ / "made.csv", text);
+    said_ = palpate(folder_.path(), {"data", "made.csv"}).out;
+    return said_.substr(said_.find("next: "));
+  };
+  // P = E/3 (L^-2 - L) up to 20 %, four times; the first loading is a tenth stiffer.
+  std::string text = "Displacement (mm),Force (N)\n";
+  for (int i = 0; i < 640; ++i) {
+    const double travel = 2.0 * std::min(i % 160, 160 - i % 160) / 80.0;
+    const double stretch = 1.0 - travel / 10.0;
+    const double force = (i < 160 ? 1.1 : 1.0) * (1.0 / (stretch * stretch) - stretch);
+    text += number_text(travel) + "," + number_text(force + 1e-3 * std::sin(7.0 * i * i)) + "\n";
+  }
+  std::string command = next(text);
+  EXPECT_NE(command.find("--model neo_hookean --loading compression --cycle 1 --height"),
+            std::string::npos)
+      << said_;
+  EXPECT_NE(said_.find("the curve has 4 loadings"), std::string::npos) << said_;
+  fit("made.csv", {"--model", "neo_hookean", "--loading", "compression", "--cycle", "1", "--height",
+                   "10 mm", "--area", "100 mm^2"});
+  EXPECT_NEAR(of("E").estimate, 33.0, 0.1);  // 3 * 1.1 * 1 N / 100 mm^2
+  // Ogden's law with an exponent of 12 stiffens far more.
+  const auto ogden = [](double stretch) {
+    return (std::pow(stretch, 11.0) - std::pow(stretch, -7.0)) / 18.0;
+  };
+  text = "Displacement (mm),Force (N)\n";
+  for (int i = 0; i <= 200; ++i)
+    text += number_text(0.02 * i) + "," +
+            number_text(-ogden(1.0 - 0.002 * i) + 1e-4 * std::sin(7.0 * i * i)) + "\n";
+  command = next(text);
+  EXPECT_NE(command.find("--model ogden --loading compression --height"), std::string::npos)
+      << said_;
+  // A stretch tells its loading.
+  text = "stretch,stress (kPa)\n";
+  for (int i = 0; i <= 100; ++i)
+    text += number_text(1.0 + 0.004 * i) + "," + number_text(ogden(1.0 + 0.004 * i)) + "\n";
+  EXPECT_TRUE(next(text).ends_with("--y \"stress (kPa)\" --model ogden\n")) << said_;
+  EXPECT_EQ(said_.find("--loading"), std::string::npos) << said_;
+  fit("made.csv", {"--model", "ogden"});
+  EXPECT_NEAR(of("alpha").estimate, 12.0, 1e-3);
+  // Several loadings of a strain.
+  text = "strain (%),stress (kPa)\n";
+  for (int i = 0; i < 300; ++i) {
+    const double strain = std::min(i % 100, 100 - i % 100) / 5.0;
+    text +=
+        number_text(strain) + "," + number_text(0.4 * strain + 1e-3 * std::sin(7.0 * i * i)) + "\n";
+  }
+  EXPECT_NE(next(text).find("--model modulus --from \"0 %\" --to \"10 %\" --cycle 1"),
+            std::string::npos)
+      << said_;
 }
 
 }  // namespace

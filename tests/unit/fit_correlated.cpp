@@ -122,10 +122,11 @@ TEST(Correlated, RhoIsFound) {
     // Its standard deviation is sqrt((1 - rho^2) / n): 0.014 and 0.007.
     EXPECT_NEAR(found->rho, rho, 4.0 * std::sqrt((1.0 - rho * rho) / count));
     // The variance of a mean of n values is (1 + rho) / (1 - rho) / n. That other processes would
-    // give the same residuals makes it larger, the width of the interval by less than two.
+    // give the same residuals makes it larger, the width of the interval by less than three: of all
+    // that can be fitted, a mean is what slow noise moves most.
     const double variance = found->covariance[0] * count * (1.0 - rho) / (1.0 + rho);
     EXPECT_GT(variance, 0.7);
-    EXPECT_LT(variance, 4.0);
+    EXPECT_LT(variance, 9.0);
   }
 }
 

@@ -161,6 +161,141 @@ TEST(StepOrigin, ALevelIsNoSlowStart) {
     }
 }
 
+TEST(StepOrigin, FewOrEvenTimesAreNotSpacedByAFactor) {
+  const auto sentence = [](const std::vector<double>& x) {
+    std::vector<double> y;
+    for (const double t : x) y.push_back(3.0 * std::pow(t, -0.2));
+    return step_origin(x, y, AfterStep::relaxes, 0.0).sentence;
+  };
+  EXPECT_TRUE(sentence({4.0, 6.0, 9.0, 13.5, 20.25}).starts_with("the record begins at 4"));
+  EXPECT_TRUE(sentence({4.0, 6.0, 9.0, 13.5, 20.25, 30.375}).starts_with("the times are spaced"));
+  std::vector<double> even;
+  for (int i = 0; i < 60; ++i) even.push_back(3.0 + 0.3 * i);
+  EXPECT_TRUE(sentence(even).starts_with("the record begins at 3"));
+}
+
+// A level has four rows, and may drift by less than 2 % of the whole.
+TEST(StepOrigin, WhatIsALevel) {
+  const auto found = [](int level, double drift) {
+    Rows rows;
+    for (int i = 0; i < 40; ++i) {
+      rows.x.push_back(10.0 + i);
+      rows.y.push_back(i < level ? drift * i : 1.0 + 0.5 * (i - level));
+    }
+    return step_origin(rows.x, rows.y, AfterStep::rises, 0.0);
+  };
+  EXPECT_FALSE(found(3, 0.0).after_level);
+  EXPECT_TRUE(found(4, 0.0).after_level);
+  EXPECT_EQ(found(8, 0.01).best.first, 18.0);  // the first row after it; the rise is 16.5
+}
+
+// A ramp needs a hold after it and a load before it that is small against its end.
+TEST(StepOrigin, WhatIsNoRamp) {
+  const auto ramp_of = [](const std::vector<double>& y) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < y.size(); ++i) x.push_back(5.0 + static_cast<double>(i));
+    return step_origin(x, y, AfterStep::relaxes, std::nullopt).best.ramp;
+  };
+  EXPECT_EQ(ramp_of({0, 0, 0, 0, 0, 1, 2, 3, 4, 5}), 0.0);
+  EXPECT_EQ(ramp_of({0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 4.9}), 0.0);
+  EXPECT_EQ(ramp_of({0.9, 0.95, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 0.0);
+  EXPECT_GT(ramp_of({0.0, 0.5, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 1.5);
+}
+
+// What begins within a row's distance of the clock's zero begins there.
+TEST(StepOrigin, TheClocksZero) {
+  Rows rows;
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.03 + 0.1 * i;
+    rows.x.push_back(t);
+    rows.y.push_back(t < 3.0 ? t : 1.0 + 2.0 * std::exp(-(t - 3.0) / 4.0));
+  }
+  EXPECT_EQ(step_origin(rows.x, rows.y, AfterStep::relaxes, std::nullopt).best.time, 0.0);
+  // A distance of 1.9 before the step, and of 0.1 after it.
+  const std::vector<double> x{-3.0, -2.0, -1.0, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4};
+  const std::vector<double> y{0.0, 0.0, 0.0, 3.0, 2.8, 2.7, 2.6, 2.5, 2.45};
+  EXPECT_EQ(step_origin(x, y, AfterStep::relaxes, 0.0).best.time, 0.0);
+  // Of a ramp whose end is the first row.
+  const Rows late = relaxation(0.0, 0.0);
+  const StepOrigin found = step_origin(late.x, late.y, AfterStep::relaxes, 1.0);
+  EXPECT_EQ(found.best.time, 0.0);
+  EXPECT_EQ(found.sentence, "");
+}
+
+// The moment whose squares are least, and the ends at which they are as many more as the rows that
+// count as one independent row allow.
+TEST(StepOrigin, IsRefinedToTheLeastSquares) {
+  const auto refined_at = [](double first, double least, double curvature, double rows_each) {
+    Rows rows;
+    for (int i = 0; i < 200; ++i) {
+      rows.x.push_back(first + 0.1 * i);
+      rows.y.push_back(i < 50 ? 0.0 : 0.02 * (i - 50));
+    }
+    StepOrigin coarse;
+    coarse.best.first = rows.x[55];
+    return refined(coarse, rows.x, rows.y, [&](const Loading& loading) {
+      const double away = loading.time - least;
+      return std::optional(Misfit{1.0 + curvature * away * away, rows_each, 3});
+    });
+  };
+  // Within the rows up to 55 the level's own squares are 2e-4 at most.
+  const StepOrigin one = refined_at(10.0, 15.1, 0.5, 1.0);
+  EXPECT_NEAR(one.best.time, 15.1, 0.05);
+  ASSERT_EQ(one.others.size(), 2U);
+  const StepOrigin four = refined_at(10.0, 15.1, 0.5, 4.0);
+  const double narrow = one.best.time - one.others[0].time;
+  EXPECT_NEAR((four.best.time - four.others[0].time) / narrow, 2.0, 0.2);
+  const StepOrigin clock = refined_at(-5.0, 0.1, 0.5, 1.0);
+  EXPECT_EQ(clock.best.time, 0.0);
+  EXPECT_EQ(clock.sentence, "");
+}
+
+// Without a fit there is nothing to refine, and what the rows leave open may lie before them.
+TEST(StepOrigin, MayLieBeforeTheRecord) {
+  EXPECT_FALSE(misfit_of([] {
+                 Fit fit;
+                 fit.termination = Termination::not_converged;
+                 return fit;
+               }).has_value());
+  Rows rows;
+  for (int i = 0; i < 40; ++i) {
+    rows.x.push_back(10.0 + i);
+    rows.y.push_back(i < 5 ? 0.0 : 0.2 * (i - 4));
+  }
+  StepOrigin coarse;
+  coarse.best.first = rows.x[5];
+  const StepOrigin open = refined(coarse, rows.x, rows.y, [](const Loading&) {
+    return std::optional(Misfit{100.0, 1.0, 3});
+  });
+  ASSERT_EQ(open.others.size(), 2U);
+  EXPECT_EQ(open.others[0].time, 9.0);  // one row before the first
+}
+
+TEST(StepOrigin, TheRowsBeforeARecovery) {
+  const auto rows_of = [](const std::vector<double>& y) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < y.size(); ++i) x.push_back(static_cast<double>(i));
+    return rows_before_recovery(x, y);
+  };
+  EXPECT_EQ(rows_of({}), 0U);
+  // Slack at the beginning is none.
+  std::vector<double> slack{0.0, 0.01, 0.0, 0.0, 0.0, 0.0};
+  for (int i = 1; i <= 90; ++i) slack.push_back(i / 90.0);
+  EXPECT_EQ(rows_of(slack), 96U);
+  std::vector<double> whole;
+  for (int i = 0; i <= 40; ++i) whole.push_back(1.0 - std::exp(-i / 5.0));
+  for (int i = 1; i <= 40; ++i) whole.push_back(std::exp(-i / 5.0));
+  EXPECT_EQ(rows_of(whole), 41U);
+  EXPECT_EQ(rows_of({0, 0.6, 0.8, 0.9, 1, 1, 1, 1, 0.5}), 8U);  // the last row alone
+  // Nor is noise of a third.
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.3);
+  std::vector<double> y{0.0};
+  for (int i = 0; i < 200; ++i) y.push_back(1.0 + noise(random));
+  EXPECT_EQ(rows_of(y), 201U);
+  EXPECT_EQ(fit::noise_of(std::vector<double>{0.0, 1.0, 0.0, 1.0}), 0.0);  // of fewer than five
+}
+
 // Creep that has come to its end is as large for long before the load is taken off.
 TEST(StepOrigin, OfARecoveryIsTheEndOfThePlateau) {
   std::mt19937 random(5);
@@ -173,6 +308,8 @@ TEST(StepOrigin, OfARecoveryIsTheEndOfThePlateau) {
                      (t < 20.0 ? 1.0 - std::exp(-t / 2.0) : std::exp(-(t - 20.0) / 2.0)));
   }
   const StepOrigin found = step_origin(rows.x, rows.y, AfterStep::recovers, 0.0);
+  ASSERT_EQ(found.others.size(), 2U);  // a row earlier or later
+  EXPECT_NEAR(found.others[1].time - found.best.time, 0.1, 1e-9);
   EXPECT_NEAR(found.best.time, 20.0, 0.21);
 }
 

@@ -74,6 +74,48 @@ TEST(BoxErrors, OfAProductOnlyTheProductIsDetermined) {
   EXPECT_NEAR(found->std_error / found->estimate, 0.01 / std::sqrt(14.0), 1e-6);
 }
 
+// E / (1 - nu^2) is named only where the loose direction keeps it, and only of a Poisson's ratio.
+TEST(BoxErrors, HertzsModulusIsNamedWhereItIsDetermined) {
+  const auto text = [](const char* other, double slope) {
+    const std::vector<Unknown> unknowns{
+        unknown("tissue.young_modulus", 1e3, 1e5, Unknown::Scale::logarithmic),
+        unknown(other, 0.2, 0.49, Unknown::Scale::linear)};
+    const std::vector<double> u{0.5, 0.5};
+    const BoxErrors errors =
+        box_errors(std::vector{std::log(100.0), slope, 0.0, 0.0}, 2, white(1e-3), 2.0);
+    return combination(errors, unknowns, u, 2.0).value().text;
+  };
+  const double nu = 0.345;
+  const double slope = 2.0 * nu / (1.0 - nu * nu) * 0.29;  // d ln(1 / (1 - nu^2)) / du
+  EXPECT_EQ(text("tissue.poisson_ratio", slope),
+            "tissue.young_modulus / (1 - tissue.poisson_ratio^2)");
+  EXPECT_EQ(text("tissue.poisson_ratio", 2.0 * slope).find("1 - "), std::string::npos);
+  EXPECT_EQ(text("tissue.shape.size.3", slope).find("1 - "), std::string::npos);
+}
+
+// Noise below a hundred-thousandth has no meaning, and neither has a slope below a millionth of the
+// steepest; the weakest directions that are asked for are loose in any case.
+TEST(BoxErrors, WhatIsTooSmallToCount) {
+  EXPECT_EQ(box_errors(std::vector{2.0, 0.0, 0.0, 1e-6}, 2, white(0.0), 2.0).tied,
+            (std::vector<char>{0, 1}));
+  EXPECT_EQ(determined_directions(std::vector{2.0, 0.0, 0.0, 1e-8}, 2).size(), 2U);  // one of two
+  EXPECT_EQ(determined_directions(std::vector{2.0, 0.0, 0.0, 1e-4}, 2).size(), 4U);
+  const BoxErrors weakest = box_errors(std::vector{2.0, 0.0, 0.0, 1.0}, 2, white(1e-3), 2.0, 1);
+  EXPECT_EQ(weakest.determined, 1);
+  EXPECT_EQ(weakest.tied, (std::vector<char>{0, 1}));
+}
+
+// Along a loose direction (1, s) the second unknown moves by s/2, which ties it only where that is
+// more than a thousandth and more than its own error.
+TEST(BoxErrors, ASmallPartOfALooseDirectionIsNoTie) {
+  const auto tied = [](double s, double sigma) {
+    return box_errors(std::vector{-s, 1.0, 0.0, 0.0}, 2, white(sigma), 2.0).tied[1] != 0;
+  };
+  EXPECT_FALSE(tied(0.0005, 1e-5));
+  EXPECT_FALSE(tied(0.01, 0.1));
+  EXPECT_TRUE(tied(0.01, 1e-5));
+}
+
 TEST(ResidualTests, TellNoiseFromBends) {
   std::vector<double> alternating, bend;
   for (int i = 0; i < 40; ++i) {

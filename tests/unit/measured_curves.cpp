@@ -1,5 +1,6 @@
 // Measured files as machines, spreadsheets and people leave them, and what is refused of them.
 #include "measured/measured.h"
+#include "measured/unit.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -129,6 +130,39 @@ TEST(Measured, UnitsInOtherForms) {
   EXPECT_DOUBLE_EQ(factor("Angstrom"), 1e-10);
   EXPECT_DOUBLE_EQ(factor("inch"), 0.0254);
   EXPECT_DOUBLE_EQ(read("x_nm,force_pN\n1,1\n2,2\n").y[0], 1e-12);
+}
+
+// The name and the unit of a column, in the ways in which makers join the two.
+TEST(Measured, NamesAndUnitsAreParted) {
+  for (const char* name : {"Depth (um)", "Depth [um]", "Depth {um}", "Depth <um>", "Depth_um",
+                           "Depth / um", "Depth in um", "Depth, um", "Depth: um", "Depth um",
+                           "Depth/um", "Depth (\u00b5m)", "Depth (\u03bcm)"}) {
+    const NamedColumn column = named_column(name);
+    EXPECT_EQ(column.bare, "Depth") << name;
+    ASSERT_TRUE(column.unit.has_value()) << name;
+    EXPECT_EQ(column.unit->text, "um") << name;
+  }
+  for (const char* name : {"1/s", "_mm", "Depth"}) {
+    EXPECT_EQ(named_column(name).bare, name);
+    EXPECT_FALSE(named_column(name).unit.has_value()) << name;
+  }
+  const Dimension rate{0, 0, -1};
+  for (const char* unit : {"1/s", "s-1", "s^-1", "s\u207b\u00b9"}) {
+    ASSERT_TRUE(written_unit(unit).has_value()) << unit;
+    EXPECT_EQ(written_unit(unit)->factor.dimension, rate) << unit;
+  }
+  for (const char* unit : {"Pa.s", "Pa*s", "Pa\u00b7s", "Pa\u22c5s", "Pa s"}) {
+    ASSERT_TRUE(written_unit(unit).has_value()) << unit;
+    EXPECT_EQ(written_unit(unit)->factor.dimension, (Dimension{-1, 1, -1})) << unit;
+  }
+  EXPECT_DOUBLE_EQ(written_unit("mm\u00b2")->factor.to_si(1.0), 1e-6);
+  EXPECT_EQ(written_unit("S")->factor.dimension, (Dimension{0, 0, 1}));
+  EXPECT_EQ(unit_under("Shear rate", *written_unit("s")).factor.dimension, rate);
+  // A mass under the name of a force is its weight.
+  for (const char* name : {"Force", "Load", "Kraft", "Kracht", "Fuerza", "Firmness", "Hardness",
+                           "F", "Fn", "Fz", "Peak load"})
+    EXPECT_DOUBLE_EQ(unit_under(name, *written_unit("g")).factor.to_si(1.0), 9.80665e-3) << name;
+  EXPECT_TRUE(is_mass(unit_under("Mass", *written_unit("g"))));
 }
 
 TEST(Measured, NumbersOfOtherPrograms) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "measured/measured.h"
 #include "refusal.h"
 
@@ -170,12 +171,52 @@ TEST(MeasuredFormats, FebioLogData) {
 TEST(MeasuredFormats, TriosSteps) {
   const std::string text =
       "Filename\tgel.tri\nInstrument name\tDHR-2\n\n[step]\nStress Relaxation - 1\n"
-      "Time\tStress\tStrain\tTemperature\ns\tMPa\t%\t\u00b0C\n"
-      "0.1\t0.002\t5\t25.01\n0.2\t0.0015\t5\t25.02\n0.4\t0.0012\t5\t25.0\n";
-  const MeasuredCurve curve = parse_measured(text, "gel.txt", {.x = "Time", .y = "Stress"});
+      "Time\tStress\tStrain\tTemperature\tModulus G(t)\ns\tMPa\t%\t\u00b0C\tMPa\n"
+      "0.1\t0.002\t5\t25.01\t0.04\n0.2\t0.0015\t5\t25.02\t0.03\n"
+      "0.4\t0.0012\t5\t25.0\t0.024\n";
+  const MeasuredCurve curve =
+      parse_measured(text, "gel.txt", {.curve = DataLayout::Curve::relaxation});
   EXPECT_EQ(curve.x, (Numbers{0.1, 0.2, 0.4}));
-  EXPECT_NEAR(curve.y[0], 2000.0, 1e-9);  // rounding
+  EXPECT_EQ(curve.y_axis.column, "Stress");  // of two pressures
+  EXPECT_NEAR(curve.y[0], 2000.0, 1e-9);     // rounding
   EXPECT_EQ(curve.x_axis.unit, "s");
+}
+
+// The export of TRIOS for laboratory systems (LIMS), version 0: every row begins with its kind, and
+// has readings that are words; each step is a table.
+TEST(MeasuredFormats, TriosLimsSteps) {
+  const auto step = [](const std::string& name, double begin, double stress) {
+    std::string text =
+        "[Step]\nStep name\t" + name +
+        "\nNumber of points\t12\n"
+        "Variables\tRun time\tTemperature\tStress\tStrain\tStep time\tTime\tStatus bits\t"
+        "Torque transducer\tDate and time\n"
+        "Units\ts\t\u00b0C\tPa\t%\ts\ts\t\t\t\n";
+    for (int i = 1; i <= 12; ++i)
+      text += "Data point\t" + number_text(begin + i) + "\t37.01\t" + number_text(stress / i) +
+              "\t5\t" + number_text(i) + "\t" + number_text(i) +
+              "\t0xB6453\tFRT\t6/26/2023 1:43:31 PM\n";
+    return text;
+  };
+  const std::string head =
+      "[Version]\nTA Instruments LIMS export format version\t0\n[Header]\n"
+      "Instrument serial number\t4010-0862\n[Sample]\nName\tgel\n[Geometry: Standard]\n"
+      "Diameter\t25.0 mm\nGap\t1.000 mm\n[Procedure: Steps]\n"
+      "Step 1\tStep (Transient)-Stress Relaxation : Temperature 37 \u00b0C Soak Time 180.0 s\n"
+      "[Parameters: File Parameters]\nTrios version\t5.1.1.46572\n";
+  const std::string first = step("Stress relaxation (37.0 \u00b0C)", 552.0, 200.0);
+  const std::string second = step("Stress relaxation (25.0 \u00b0C)", 752.0, 400.0);
+  const DataLayout relaxes{.curve = DataLayout::Curve::relaxation};
+  const MeasuredCurve curve = parse_measured(head + first, "gel.txt", relaxes);
+  EXPECT_EQ(curve.x_axis.column, "Step time");
+  EXPECT_EQ(curve.y_axis.column, "Stress");
+  ASSERT_EQ(curve.x.size(), 12U);
+  EXPECT_EQ(curve.x[11], 12.0);
+  EXPECT_EQ(curve.y[1], 100.0);
+  DataLayout chosen = relaxes;
+  chosen.segment = "2";
+  EXPECT_EQ(parse_measured(head + first + second, "gel.txt", chosen).y[1], 200.0);
+  EXPECT_NE(format_refusal(head + first + second, relaxes).find("--segment 1"), std::string::npos);
 }
 
 // A row of units with more cells than the names above it: the columns are those of the units.
@@ -210,15 +251,41 @@ TEST(MeasuredFormats, LabViewMeasurement) {
   EXPECT_EQ(curve.x_axis.unit, "mm");
 }
 
-// A text export of Anton Paar's Bioindenter: penetration depth and normal force.
+// A text export of Anton Paar's Bioindenter: lines about the test, `Measured values`, and a table
+// of time, penetration depth, normal force, that of the reference sensor, and the segment.
 TEST(MeasuredFormats, BioindenterDepthAndForce) {
-  const std::string text =
-      "Anton Paar Indentation\nSample:\tliver\nIndenter radius:\t500 um\n\n"
-      "Time\tPd\tFn\n[s]\t[nm]\t[uN]\n0\t0\t0\n0.1\t50\t0.4\n0.2\t100\t1.2\n";
-  const MeasuredCurve curve = parse_measured(text, "liver.txt", {});
-  EXPECT_EQ(curve.x_axis.column + " " + curve.y_axis.column, "Pd Fn");
-  EXPECT_NEAR(curve.x[2], 1e-7, 1e-18);  // rounding
-  EXPECT_NEAR(curve.y[2], 1.2e-6, 1e-17);
+  const std::string head =
+      "Anton Paar Indentation\r\nSample:\tcartilage 3\r\nDate:\t12/03/2024 10:11:12\r\n"
+      "Indenter radius:\t500.00 [\u00b5m]\r\nApproach speed:\t20.00 [\u00b5m/min]\r\n\r\n"
+      "Measured values\r\n";
+  const std::string rows =
+      "0.000\t0.0000\t-0.002\t0.001\t1\r\n0.100\t0.2000\t0.400\t0.001\t1\r\n"
+      "0.200\t0.4000\t1.200\t0.001\t1\r\n0.300\t0.1000\t0.300\t0.001\t3\r\n";
+  std::string comma = rows;
+  std::replace(comma.begin(), comma.end(), '.', ',');
+  const std::string names = "Time [s]\tPd [\u00b5m]\tFn [mN]\tFnref [mN]\tSegment\r\n";
+  const std::string above = "Time\tPd\tFn\tFnref\tSegment\r\n[s]\t[\u00b5m]\t[mN]\t[mN]\t[-]\r\n";
+  for (const std::string& text : {head + names + rows, head + names + comma, head + above + rows}) {
+    const MeasuredCurve curve = parse_measured(text, "cartilage.TXT", {.segment = "1"});
+    EXPECT_EQ(curve.x_axis.column.substr(0, 2) + " " + curve.y_axis.column.substr(0, 2), "Pd Fn");
+    ASSERT_EQ(curve.x.size(), 3U);
+    EXPECT_NEAR(curve.x[2], 4e-7, 1e-18);  // rounding
+    EXPECT_NEAR(curve.y[2], 1.2e-3, 1e-15);
+  }
+  // Without units in its names the file does not say what its numbers are.
+  EXPECT_EQ(format_refusal(head + "time\tdispl\tload\tref_load\tsegm\r\n" + rows),
+            "curve:8: has 5 columns, and it is not clear which is x; set `--x` to one of time, "
+            "displ, load, ref_load, segm");
+}
+
+// A column without a number is none of the two, and neither is one of words.
+TEST(MeasuredFormats, AnEmptyFirstColumnIsNoCurve) {
+  const std::string rows = "\t1\t5\n\t2\t4\n\t3\t3.5\n\t4\t3\n";
+  for (const char* head : {"Interval data:\tTime\tShear Stress\n\t[s]\t[Pa]\n", "\tt\ty\n", ""}) {
+    const MeasuredCurve curve = parse_measured(head + rows, "r.csv", {});
+    EXPECT_EQ(curve.x, (Numbers{1, 2, 3, 4})) << head;
+    EXPECT_EQ(curve.y, (Numbers{5, 4, 3.5, 3})) << head;
+  }
 }
 
 // depth = travel - force / k; a deflection in the column of y is force / k itself.
