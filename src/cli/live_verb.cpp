@@ -140,7 +140,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
     folder.keep(0, result.record);
     std::vector<fit::NamedFit> fits;
     if (family.base.output.fits && !result.record.contact.empty())
-      fits = fit::case_fits(scene.scenario, result.record);
+      fits = fit::case_fits(scene.scenario, result.record, fit::Residuals::correlated);
     missing = warn_all(folder.finish({result.record}, fits, {arguments.given, started}), talk);
   } catch (const SystemError& error) {
     if (code != exit_good) Talk::error(ended);

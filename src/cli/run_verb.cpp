@@ -83,7 +83,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   std::vector<std::vector<fit::NamedFit>> fits_of(scenes.size());
   const auto finished = [&](std::size_t i, const record::CaseRecord& record) {
     if (family.base.output.fits && record.outcome != record::Outcome::interrupted)
-      fits_of[i] = fit::case_fits(scenes[i].scenario, record);
+      fits_of[i] = fit::case_fits(scenes[i].scenario, record, fit::Residuals::correlated);
     folder.keep(i, record);
     const std::lock_guard lock(one_at_a_time);
     ++done;

@@ -15,8 +15,9 @@ struct Curve {
 
 class CaseFits {
  public:
-  CaseFits(const scenario::Resolved& scenario, const record::CaseRecord& record)
-      : scenario_(scenario), record_(record) {}
+  CaseFits(const scenario::Resolved& scenario, const record::CaseRecord& record,
+           Residuals residuals)
+      : scenario_(scenario), record_(record), residuals_(residuals) {}
 
   std::vector<NamedFit> all() {
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
@@ -37,7 +38,8 @@ class CaseFits {
     return 0;
   }
 
-  void add(const std::string& name, const Curve& curve, Model model, const Options& options) {
+  void add(const std::string& name, const Curve& curve, Model model, Options options) {
+    options.residuals = residuals_;
     try {
       fits_.push_back({record_.name, name, regress(curve.x, curve.y, model, options)});
     } catch (const InputError&) {  // a curve with too few points is left out
@@ -97,14 +99,15 @@ class CaseFits {
 
   const scenario::Resolved& scenario_;
   const record::CaseRecord& record_;
+  Residuals residuals_;
   std::vector<NamedFit> fits_;
 };
 
 }  // namespace
 
 std::vector<NamedFit> case_fits(const scenario::Resolved& scenario,
-                                const record::CaseRecord& record) {
-  return CaseFits(scenario, record).all();
+                                const record::CaseRecord& record, Residuals residuals) {
+  return CaseFits(scenario, record, residuals).all();
 }
 
 }  // namespace palpate::fit

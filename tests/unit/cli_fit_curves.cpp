@@ -340,6 +340,33 @@ TEST_F(FitCurves, stretches_and_true_stresses) {
               12.0, 1e-3);
 }
 
+// The fits of a run's page and those of the command line have the same intervals for the same rows,
+// whose residuals are those of a law that does not describe the curve.
+TEST_F(FitCurves, a_run_and_fit_give_the_same_interval) {
+  write_file(folder_ / "press.toml",
+             "schema = 1\n[tissue]\nshape = { kind = \"half_space\" }\npoisson_ratio = 0.45\n"
+             "[contact]\ndepth = \"neo_hookean\"\n[solver]\nmodel = \"hertz\"\n[[step]]\nkind = "
+             "\"indent\"\nto = \"3 mm\"\nrate = \"1 mm/s\"\n[output]\ninterval = \"10 ms\"\n");
+  const Ended ended = palpate(folder_.path(), {"run", "press.toml", "--out", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const record::Table fits = record::read_csv((folder_ / "out/press/fits.csv").string());
+  const auto at = [&](const auto& row, const char* column) {
+    return row[static_cast<std::size_t>(fits.find(column))];
+  };
+  fit("out/press/force_indentation.csv",
+      {"--x", "indentation_mm", "--y", "contact_force_N", "--model", "power"});
+  int compared = 0;
+  for (const auto& row : fits.rows) {
+    if (at(row, "model") != record::Cell("power")) continue;
+    const Range shell = of(std::get<std::string>(at(row, "parameter")));
+    const double width = shell.high - shell.low;
+    EXPECT_NEAR(std::get<double>(at(row, "ci95_low")), shell.low, 1e-9 * width);  // rounding
+    EXPECT_NEAR(std::get<double>(at(row, "ci95_high")), shell.high, 1e-9 * width);
+    ++compared;
+  }
+  EXPECT_EQ(compared, 2);
+}
+
 // Of a specimen that is loaded several times, and of stretches, `data` advises what `fit` takes.
 TEST_F(FitCurves, data_advises_what_fit_takes) {
   const auto next = [&](const std::string& text) {
