@@ -102,7 +102,8 @@ report::CsvFiles compute(const std::string& scenario, int workers) {
   const auto records = run::run_all(scenes, workers, [](std::size_t, const record::CaseRecord&) {});
   std::vector<fit::NamedFit> fits;
   for (std::size_t i = 0; i < records.size(); ++i)
-    for (fit::NamedFit& named : fit::case_fits(scenes[i].scenario, records[i]))
+    for (fit::NamedFit& named :
+         fit::case_fits(scenes[i].scenario, records[i], fit::Residuals::correlated))
       fits.push_back(std::move(named));
   return report::csv_files(family, records, fits);
 }
