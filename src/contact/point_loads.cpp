@@ -25,36 +25,53 @@ struct Sums {
   }
 };
 
-// With R from the load to the point, z its depth, d = |R| + z, r the part of R in the plane and k =
-// 1 - 2 nu. The stresses in the plane are without Johnson's division by r^2, since |R| - z = r^2/d.
+// With R from the load to the point, z its depth, r = (x, y) the part of R in the plane and d = |R|
+// + z.
+struct Near {
+  double share, x, y;
+  double away, by_away, by_d, cube;  // |R|, 1/|R|, 1/d, 1/|R|^3
+};
+
+// Calls add(lane, near) for every load.
+template <class Add>
+PALPATE_ALWAYS void visit(std::size_t count, const double* x_of, const double* y_of,
+                          const double* share_of, double x, double y, double z, double least,
+                          const Add& add) {
+  for (std::size_t first = 0; first < count; first += lanes)
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const double rx = x - x_of[first + i];
+      const double ry = y - y_of[first + i];
+      const double away = std::sqrt(rx * rx + ry * ry + least + z * z);
+      const double by_away = 1.0 / away;
+      add(i, Near{share_of[first + i], rx, ry, away, by_away, 1.0 / (away + z),
+                  by_away * by_away * by_away});
+    }
+}
+
+// With k = 1 - 2 nu. The stresses in the plane are without Johnson's division by r^2, since |R| - z
+// = r^2/d.
 PALPATE_WIDEST void press(std::size_t count, const double* x_of, const double* y_of,
                           const double* share_of, double x, double y, double z, double least,
                           double nu, Sums* to) {
   const double k = 1.0 - 2.0 * nu;
   Sums sums;
-  for (std::size_t first = 0; first < count; first += lanes)
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const double rx = x - x_of[first + i];
-      const double ry = y - y_of[first + i];
-      const double share = share_of[first + i];
-      const double away = std::sqrt(rx * rx + ry * ry + least + z * z);
-      const double by_away = 1.0 / away;
-      const double by_d = 1.0 / (away + z);
-      const double cube = by_away * by_away * by_away;
-      const double even = share * k * by_away * by_d;
-      const double uneven = share * k * cube * by_d * by_d * (2.0 * away + z);
-      const double push = share * 3.0 * z * cube * by_away * by_away;
-      const double inward = share * z * cube - even;
-      sums.ux[i] += inward * rx;
-      sums.uy[i] += inward * ry;
-      sums.uz[i] -= share * (z * z * cube + 2.0 * (1.0 - nu) * by_away);
-      sums.xx[i] += even - uneven * ry * ry - push * rx * rx;
-      sums.yy[i] += even - uneven * rx * rx - push * ry * ry;
-      sums.xy[i] += (uneven - push) * rx * ry;
-      sums.zz[i] -= push * z * z;
-      sums.xz[i] += push * z * rx;
-      sums.yz[i] += push * z * ry;
-    }
+  visit(
+      count, x_of, y_of, share_of, x, y, z,
+      least, [&](std::size_t i, const Near& at) __attribute__((always_inline)) {
+        const double even = at.share * k * at.by_away * at.by_d;
+        const double uneven = at.share * k * at.cube * at.by_d * at.by_d * (2.0 * at.away + z);
+        const double push = at.share * 3.0 * z * at.cube * at.by_away * at.by_away;
+        const double inward = at.share * z * at.cube - even;
+        sums.ux[i] += inward * at.x;
+        sums.uy[i] += inward * at.y;
+        sums.uz[i] -= at.share * (z * z * at.cube + 2.0 * (1.0 - nu) * at.by_away);
+        sums.xx[i] += even - uneven * at.y * at.y - push * at.x * at.x;
+        sums.yy[i] += even - uneven * at.x * at.x - push * at.y * at.y;
+        sums.xy[i] += (uneven - push) * at.x * at.y;
+        sums.zz[i] -= push * z * z;
+        sums.xz[i] += push * z * at.x;
+        sums.yz[i] += push * z * at.y;
+      });
   *to = sums;
 }
 
@@ -68,32 +85,26 @@ PALPATE_WIDEST void drag(std::size_t count, const double* x_of, const double* y_
                          double nu, double tx, double ty, Sums* to) {
   const double k = 1.0 - 2.0 * nu;
   Sums sums;
-  for (std::size_t first = 0; first < count; first += lanes)
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const double rx = x - x_of[first + i];
-      const double ry = y - y_of[first + i];
-      const double share = share_of[first + i];
-      const double away = std::sqrt(rx * rx + ry * ry + least + z * z);
-      const double by_away = 1.0 / away;
-      const double by_d = 1.0 / (away + z);
-      const double cube = by_away * by_away * by_away;
-      const double p = rx * tx + ry * ty;
-      const double even = share * (by_away + k * by_d);
-      const double turned = share * k * by_away * by_d * by_d;
-      const double outward = share * p * cube - p * turned;
-      sums.ux[i] += even * tx + outward * rx;
-      sums.uy[i] += even * ty + outward * ry;
-      sums.uz[i] -= share * p * by_away * (z * by_away * by_away + k * by_d);
-      const double pull = share * 3.0 * p * cube * by_away * by_away;
-      const double all = share * k * p * cube - p * turned;
-      const double along = p * turned * by_away * (by_away + 2.0 * by_d) - pull;
-      sums.xx[i] += all - 2.0 * turned * tx * rx + along * rx * rx;
-      sums.yy[i] += all - 2.0 * turned * ty * ry + along * ry * ry;
-      sums.xy[i] += along * rx * ry - turned * (tx * ry + ty * rx);
-      sums.zz[i] -= pull * z * z;
-      sums.xz[i] += pull * z * rx;
-      sums.yz[i] += pull * z * ry;
-    }
+  visit(
+      count, x_of, y_of, share_of, x, y, z,
+      least, [&](std::size_t i, const Near& at) __attribute__((always_inline)) {
+        const double p = at.x * tx + at.y * ty;
+        const double even = at.share * (at.by_away + k * at.by_d);
+        const double turned = at.share * k * at.by_away * at.by_d * at.by_d;
+        const double outward = at.share * p * at.cube - p * turned;
+        sums.ux[i] += even * tx + outward * at.x;
+        sums.uy[i] += even * ty + outward * at.y;
+        sums.uz[i] -= at.share * p * at.by_away * (z * at.by_away * at.by_away + k * at.by_d);
+        const double pull = at.share * 3.0 * p * at.cube * at.by_away * at.by_away;
+        const double all = at.share * k * p * at.cube - p * turned;
+        const double along = p * turned * at.by_away * (at.by_away + 2.0 * at.by_d) - pull;
+        sums.xx[i] += all - 2.0 * turned * tx * at.x + along * at.x * at.x;
+        sums.yy[i] += all - 2.0 * turned * ty * at.y + along * at.y * at.y;
+        sums.xy[i] += along * at.x * at.y - turned * (tx * at.y + ty * at.x);
+        sums.zz[i] -= pull * z * z;
+        sums.xz[i] += pull * z * at.x;
+        sums.yz[i] += pull * z * at.y;
+      });
   *to = sums;
 }
 
