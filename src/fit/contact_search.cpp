@@ -205,8 +205,12 @@ std::optional<ContactChoice> choose_contact(const UnitLaw& law, const PressRows&
     }
   }
   if (!best) return std::nullopt;
+  const std::size_t before = best->guess.before;
   for (const Baseline richer : {Baseline::tilt, Baseline::offset, Baseline::none}) {
     const auto& guess = guesses[as_index(richer)];
+    // Rows that lie before contact by this baseline alone do not tell it: a line through the first
+    // rows in contact is one as well.
+    if (before < rows_for(richer)) continue;
     if (!guess || !(guess->factor > 0.0) || !determines(rows, *guess, richer)) continue;
     best = ContactChoice{richer, *guess};
     break;
