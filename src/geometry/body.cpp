@@ -17,6 +17,19 @@
 namespace palpate::geometry {
 namespace {
 
+double distance_to(const Surface& surface, const Vec3& point) {
+  return std::sqrt(BoxTree(surface).nearest(point).distance_squared);
+}
+
+std::string named(const Lump& lump) {
+  std::string text = "the inclusion of radius " + rounded_text(1e3 * lump.radius) + " mm about (";
+  for (int axis = 0; axis < 3; ++axis)
+    text += (axis ? ", " : "") + rounded_text(1e3 * lump.centre[axis]);
+  return text + ") mm ";
+}
+
+}  // namespace
+
 // Sums the triangles' solid angles from the point (Van Oosterom & Strackee 1983): 4 pi inside.
 bool encloses(const Surface& surface, const Vec3& point) {
   double half_angles = 0.0;
@@ -30,21 +43,8 @@ bool encloses(const Surface& surface, const Vec3& point) {
     half_angles +=
         std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
-  return std::abs(half_angles) > std::numbers::pi;
+  return half_angles > std::numbers::pi;
 }
-
-double distance_to(const Surface& surface, const Vec3& point) {
-  return std::sqrt(BoxTree(surface).nearest(point).distance_squared);
-}
-
-std::string named(const Lump& lump) {
-  std::string text = "the inclusion of radius " + rounded_text(1e3 * lump.radius) + " mm about (";
-  for (int axis = 0; axis < 3; ++axis)
-    text += (axis ? ", " : "") + rounded_text(1e3 * lump.centre[axis]);
-  return text + ") mm ";
-}
-
-}  // namespace
 
 void add_lump(Body& body, const Lump& lump, double spacing) {
   const Surface& whole = body.parts.front().surface;

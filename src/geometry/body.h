@@ -36,6 +36,10 @@ void add_lump(Body& body, const Lump& lump, double spacing);
 // All triangles of the body's surfaces, shared ones only once: the input for TetGen.
 [[nodiscard]] Surface facets(const Body& body);
 
+// Whether a point that is not on a closed surface is inside it. Where the surface has several
+// parts, those that face inwards bound cavities, which are outside.
+[[nodiscard]] bool encloses(const Surface& surface, const Vec3& point);
+
 // The region of a point that is not on a surface; empty outside the body.
 [[nodiscard]] std::optional<int> region_at(const Body& body, const Vec3& point);
 

@@ -140,33 +140,31 @@ class SurfaceChecker {
            "; merge vertices in one place and fill the holes");
   }
 
+  // All parts but the largest are cavities in it, and face inwards.
   void parts() const {
     const std::vector<int>& first = joints_.first_triangles;
-    if (first.size() < 2) return;
-    const auto box = [&](int part) {
-      const Vec3& start = at(corners(first[as_index(part)])[0]);
-      std::pair<Vec3, Vec3> found{start, start};
-      for (int f = 0; f < faces(); ++f) {
-        if (joints_.part[as_index(f)] != part) continue;
-        for (const int v : corners(f)) {
-          found.first = found.first.cwiseMin(at(v));
-          found.second = found.second.cwiseMax(at(v));
-        }
-      }
-      return found;
-    };
-    const auto [low_a, high_a] = box(0);
-    const auto [low_b, high_b] = box(1);
-    const auto within = [](const Vec3& low, const Vec3& high, const Vec3& l, const Vec3& h) {
-      return (low.array() > l.array()).all() && (high.array() < h.array()).all();
-    };
-    const char* how = within(low_b, high_b, low_a, high_a)   ? "the second inside the first"
-                      : within(low_a, high_a, low_b, high_b) ? "the first inside the second"
-                                                             : "beside each other";
-    fail("has " + std::to_string(first.size()) + " parts, the first with face 0" +
-         place(corners(0)[0]) + ", the second with face " + std::to_string(first[1]) +
-         place(corners(first[1])[0]) + ", " + how +
-         "; keep one of them, or join them into one surface");
+    const int count = static_cast<int>(first.size());
+    if (count < 2) return;
+    std::vector<geometry::Surface> own(first.size(), {surface_.vertices, {}});
+    for (int f = 0; f < faces(); ++f)
+      own[as_index(joints_.part[as_index(f)])].triangles.push_back(corners(f));
+    std::vector<double> volumes;
+    for (const geometry::Surface& part : own) volumes.push_back(geometry::enclosed(part).volume);
+    const auto outer = std::max_element(volumes.begin(), volumes.end()) - volumes.begin();
+    for (int p = 0; p < count; ++p) {
+      if (p == outer) continue;
+      geometry::Surface others{surface_.vertices, {}};
+      for (int f = 0; f < faces(); ++f)
+        if (joints_.part[as_index(f)] != p) others.triangles.push_back(corners(f));
+      const int start = corners(first[as_index(p)])[0];
+      const bool within = geometry::encloses(others, at(start));
+      if (within && volumes[as_index(p)] < 0.0) continue;
+      fail("has " + std::to_string(count) + " parts, and the one with face " +
+           std::to_string(first[as_index(p)]) + place(start) +
+           (within ? " lies inside the others and faces outwards; turn its faces round if it is a "
+                     "cavity, or remove it"
+                   : " lies beside the others; keep one of them, or join them into one surface"));
+    }
   }
 
   void right_side_out() const {
@@ -228,8 +226,8 @@ void check_closed(const geometry::Surface& surface, const std::string& name) {
   checker.shapes();
   checker.joints();
   checker.holes();
-  checker.parts();
   checker.right_side_out();
+  checker.parts();
   checker.crossings();
 }
 
@@ -395,22 +393,17 @@ std::vector<geometry::Surface> parts_of(const geometry::Surface& surface) {
   return parts;
 }
 
-// Whether the box of one surface lies in that of another.
-bool lies_within(const geometry::Surface& inner, const geometry::Surface& outer) {
-  const auto box = [](const geometry::Surface& surface) {
-    std::pair<Vec3, Vec3> found{surface.vertices.front(), surface.vertices.front()};
-    for (const Vec3& vertex : surface.vertices) {
-      found.first = found.first.cwiseMin(vertex);
-      found.second = found.second.cwiseMax(vertex);
-    }
-    return found;
-  };
-  const auto [low, high] = box(inner);
-  const auto [lowest, highest] = box(outer);
-  return (low.array() > lowest.array()).all() && (high.array() < highest.array()).all();
+void add_part(geometry::Surface& surface, const geometry::Surface& part, bool turned) {
+  const int before = static_cast<int>(surface.vertices.size());
+  surface.vertices.insert(surface.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (std::array<int, 3> triangle : part.triangles) {
+    for (int& corner : triangle) corner += before;
+    if (turned) std::swap(triangle[1], triangle[2]);
+    surface.triangles.push_back(triangle);
+  }
 }
 
-// Leaves one part; tells which others there were.
+// Leaves one part and, where none is asked for, the cavities in it; tells what there was besides.
 std::string choose_part(geometry::Surface& surface, const std::string& name,
                         const std::optional<int>& wanted) {
   std::vector<geometry::Surface> parts = parts_of(surface);
@@ -420,29 +413,31 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
                     std::to_string(*wanted) + "; give one of them");
   if (count < 2) return "";
   const int own = wanted.value_or(1);
-  const double volume = std::abs(geometry::enclosed(parts[as_index(own - 1)]).volume);
+  std::vector<double> volumes;
+  for (const geometry::Surface& part : parts) volumes.push_back(geometry::enclosed(part).volume);
+  geometry::Surface taken;
+  add_part(taken, parts[as_index(own - 1)], volumes[as_index(own - 1)] < 0.0);
   int specks = 0;
-  std::string others;
+  std::string others, cavities;
   for (int i = 1; i <= count; ++i) {
     if (i == own) continue;
     const geometry::Surface& other = parts[as_index(i - 1)];
-    const double share = std::abs(geometry::enclosed(other).volume) / volume;
+    const double share = std::abs(volumes[as_index(i - 1)] / volumes[as_index(own - 1)]);
     if (share < speck) {
       ++specks;
       continue;
     }
-    const std::string which = "part " + std::to_string(i);
-    if (!wanted && lies_within(other, parts[as_index(own - 1)]))
-      throw MeshError(
-          "surface `" + name + "`: " + which + near_text(other.vertices.front()) +
-          " lies inside part " + std::to_string(own) + ", as a cavity with " + percent_text(share) +
-          " of its volume, and hollow bodies from surfaces are not meshed; give `part = " +
-          std::to_string(own) + "` to have it filled, or a mesh of tetrahedra");
-    others += (others.empty() ? "" : ", ") + which + near_text(other.vertices.front()) + " with " +
-              percent_text(share) + " of its volume";
+    // The parts go by falling volume, so that a cavity comes before what lies in it.
+    const bool cavity = !wanted && geometry::encloses(taken, other.vertices.front());
+    if (cavity) add_part(taken, other, volumes[as_index(i - 1)] > 0.0);
+    std::string& list = cavity ? cavities : others;
+    list += (list.empty() ? "" : ", ") + std::string("part ") + std::to_string(i) +
+            near_text(geometry::enclosed(other).centroid) + " with " + percent_text(share) +
+            " of its volume";
   }
-  surface = std::move(parts[as_index(own - 1)]);
+  surface = std::move(taken);
   std::string text = "part " + std::to_string(own) + " of " + std::to_string(count) + " is taken";
+  if (!cavities.empty()) text += ", with a cavity in it: " + cavities;
   if (!others.empty()) text += ", without " + others;
   if (specks > 0) text += ", and " + many(specks, "speck") + " left out";
   return text;
@@ -455,8 +450,8 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
   std::string fault;
   try {
     check_closed(surface, name);
-    if (order.part.value_or(1) > 1) (void)choose_part(surface, name, order.part);
-    return {std::move(surface), ""};
+    const std::string taken = choose_part(surface, name, order.part);
+    return {std::move(surface), taken.empty() ? "" : "of the surface " + name + ", " + taken};
   } catch (const MeshError& error) {
     if (!order.repair || surface.vertices.empty() || surface.triangles.empty()) throw;
     fault = error.what();

@@ -16,9 +16,9 @@ namespace palpate::meshing {
 // (longest side of the bounding box) below 1e-6 m or above 10 m, probably a wrong unit; a face with
 // a repeated vertex; two faces with the same vertices; a face whose height is below 1e-6 of its
 // longest edge; a vertex without a face; the first face that is a third one at an edge, faces the
-// side opposite to a neighbour's, or touches others in a vertex only; holes; more than one part,
-// beside or inside each other; an inside-out surface; two faces that cut, touch or overlap each
-// other. About 1 s for 1e5 faces.
+// side opposite to a neighbour's, or touches others in a vertex only; holes; an inside-out
+// surface; a part beside another, or inside another and facing outwards (one that faces inwards is
+// a cavity); two faces that cut, touch or overlap each other. About 1 s for 1e5 faces.
 void check_closed(const geometry::Surface& surface, const std::string& name);
 
 struct WholeSurface {
@@ -35,9 +35,10 @@ struct RepairOrder {
 // The surface itself if it passes check_closed(). Otherwise its vertices within a millionth of its
 // size are joined, doubled triangles removed, sheets that share a vertex parted, all triangles
 // turned one way, holes filled and crossing triangles replaced, if the holes, and the crossing
-// triangles, have at most 2 % of its area. Of several parts one remains; parts of less than a
-// thousandth of its volume are removed. Throws MeshError as check_closed() does for what is worse,
-// and for parts inside one another. `name` is that of the surface in messages.
+// triangles, have at most 2 % of its area. Of several parts one remains, with the
+// cavities in it where no part is asked for; parts of less than a thousandth of its volume are
+// removed. Throws MeshError as check_closed() does for what is worse. `name` is that of the surface
+// in messages.
 [[nodiscard]] WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
                                          const RepairOrder& order);
 

@@ -2,6 +2,8 @@
 #include "meshing/tetgen.h"
 
 #include <csignal>
+#include <map>
+#include <utility>
 
 #include "base/child_process.h"
 #include "base/error.h"
@@ -115,6 +117,46 @@ PieceMesh tetgen_pieces(const Pieces& pieces, const std::function<double(const V
   from.take(made.numbers, faces);
   made.mesh = taken_mesh(from);
   return made;
+}
+
+std::vector<int> name_regions(geometry::TetMesh& mesh,
+                              const std::function<std::optional<int>(const Vec3&)>& region_at) {
+  struct Sample {
+    double volume = 0.0;
+    std::size_t tetrahedron = 0;
+  };
+  std::map<int, Sample> largest;  // its centre is the least affected by rounding
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    Sample& sample = largest[mesh.regions[t]];
+    const double volume = geometry::signed_volume(mesh, static_cast<int>(t));
+    if (volume > sample.volume) sample = {volume, t};
+  }
+  std::map<int, std::optional<int>> names;
+  for (const auto& [number, sample] : largest) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : mesh.tetrahedra[sample.tetrahedron])
+      middle += 0.25 * mesh.nodes[as_index(node)];
+    names[number] = region_at(middle);
+  }
+  geometry::TetMesh kept;
+  std::vector<char> used(mesh.nodes.size(), 0);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    const std::optional<int> name = names[mesh.regions[t]];
+    if (!name) continue;
+    kept.tetrahedra.push_back(mesh.tetrahedra[t]);
+    kept.regions.push_back(*name);
+    for (const int node : mesh.tetrahedra[t]) used[as_index(node)] = 1;
+  }
+  std::vector<int> number(mesh.nodes.size(), -1);
+  for (std::size_t n = 0; n < used.size(); ++n) {
+    if (used[n] == 0) continue;
+    number[n] = static_cast<int>(kept.nodes.size());
+    kept.nodes.push_back(mesh.nodes[n]);
+  }
+  for (auto& tetrahedron : kept.tetrahedra)
+    for (int& node : tetrahedron) node = number[as_index(node)];
+  mesh = std::move(kept);
+  return number;
 }
 
 }  // namespace palpate::meshing

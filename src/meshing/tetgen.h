@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,12 @@ struct PieceMesh {
 [[nodiscard]] PieceMesh tetgen_pieces(const Pieces& pieces,
                                       const std::function<double(const Vec3&)>& size,
                                       double time_limit);
+
+// The numbers that `A` gave to the parts between surfaces become those that `region_at` has for a
+// place in each; parts for which it has none are cavities, and removed. Returns the new numbers of
+// the nodes, -1 for those inside cavities.
+std::vector<int> name_regions(geometry::TetMesh& mesh,
+                              const std::function<std::optional<int>(const Vec3&)>& region_at);
 
 // A box from the origin to `size` (m), with about `target_nodes` nodes: within 3 % for most targets
 // of 60 or more. Its surface is a grid of squares cut in two, with spacings of about the edge

@@ -154,29 +154,16 @@ double mean_edge(const geometry::Surface& surface) {
   return sum / (3.0 * static_cast<double>(surface.triangles.size()));
 }
 
-// Replaces TetGen's region numbers by those of the body, determined at one point per region.
+// Replaces TetGen's region numbers by those of the body.
 void name_regions(const geometry::Body& body, geometry::TetMesh& mesh) {
-  struct Sample {
-    double volume = 0.0;
-    std::size_t tetrahedron = 0;
-  };
-  std::map<int, Sample> largest;  // its centre is the least affected by rounding
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    Sample& sample = largest[mesh.regions[t]];
-    const double volume = geometry::signed_volume(mesh, static_cast<int>(t));
-    if (volume > sample.volume) sample = {volume, t};
-  }
-  std::map<int, int> region;
-  for (const auto& [number, sample] : largest) {
-    Vec3 middle = Vec3::Zero();
-    for (const int node : mesh.tetrahedra[sample.tetrahedron])
-      middle += 0.25 * mesh.nodes[as_index(node)];
-    const std::optional<int> found = geometry::region_at(body, middle);
-    if (!found)
+  meshing::name_regions(mesh, [&](const Vec3& place) {
+    const std::optional<int> found = geometry::region_at(body, place);
+    if (!found && std::any_of(body.parts.begin() + 1, body.parts.end(), [&](const auto& part) {
+          return geometry::encloses(part.surface, place);
+        }))
       throw MeshError("a part of the body lies outside its outer surface; move it inwards");
-    region[number] = *found;
-  }
-  for (int& number : mesh.regions) number = region[number];
+    return found;
+  });
   if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
     mesh.regions.clear();
 }

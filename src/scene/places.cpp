@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "geometry/box_tree.h"
+#include "geometry/half_edges.h"
 #include "meshing/mesh_check.h"
 #include "scenario/direction.h"
 #include "scene/specimen_mesh.h"
@@ -191,6 +192,28 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
   return outwards;
 }
 
+// The nearest place of a surface without the walls of its cavities.
+geometry::SurfacePoint nearest_outside(const geometry::Surface& surface, const Vec3& place) {
+  const geometry::Joints joints = geometry::joints(surface);
+  std::vector<geometry::Surface> parts(joints.first_triangles.size(), {surface.vertices, {}});
+  std::vector<std::vector<int>> numbers(parts.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const std::size_t part = as_index(joints.part[t]);
+    parts[part].triangles.push_back(surface.triangles[t]);
+    numbers[part].push_back(static_cast<int>(t));
+  }
+  geometry::SurfacePoint found;
+  double least = HUGE_VAL;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (geometry::enclosed(parts[p]).volume < 0.0) continue;
+    const geometry::Near near = geometry::BoxTree(parts[p]).nearest(place);
+    if (near.distance_squared >= least) continue;
+    least = near.distance_squared;
+    found = {numbers[p][as_index(near.triangle)], near.weights};
+  }
+  return found;
+}
+
 }  // namespace
 
 void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
@@ -204,8 +227,7 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
     const auto surface = unturned(scenario, folder, shapes);
     if (!surface) return;
     place = Vec3(finger.at[0], finger.at[1], finger.at[2]);
-    const geometry::Near near = geometry::BoxTree(surface->surface()).nearest(place);
-    const geometry::SurfacePoint at{near.triangle, near.weights};
+    const geometry::SurfacePoint at = nearest_outside(surface->surface(), place);
     place = surface->position(at);
     if (finger.towards.empty()) towards = -surface->normal(at);
   }

@@ -23,20 +23,6 @@ constexpr double growth = 0.35;
 // Numbers of faces: flat ones, those of a file, the shape's round ones, then lumps, then planes.
 enum Number { flat = 1, of_file = 2, first_round = 3, first_lump = 10, first_plane = 1000 };
 
-// Whether a point is inside a closed surface, by the winding number.
-bool inside(const geometry::Surface& surface, const Vec3& point) {
-  double angle = 0.0;  // Van Oosterom and Strackee 1983
-  for (const auto& t : surface.triangles) {
-    const Vec3 a = surface.vertices[as_index(t[0])] - point;
-    const Vec3 b = surface.vertices[as_index(t[1])] - point;
-    const Vec3 c = surface.vertices[as_index(t[2])] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle +=
-        std::atan2(a.cross(b).dot(c), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return angle > M_PI;  // half of 4 pi, of which the sum is half
-}
-
 class Mesher {
  public:
   explicit Mesher(const MeshOrder& order) : order_(order) {
@@ -67,7 +53,10 @@ class Mesher {
     net.refine(size);
     meshing::PieceMesh filled = meshing::tetgen_pieces(
         {{net.vertices(), net.triangles()}, net.numbers()}, size, time_limit);
-    name_regions(filled.mesh);
+    const std::vector<int> number =
+        meshing::name_regions(filled.mesh, [this](const Vec3& place) { return region_at(place); });
+    for (auto& face : filled.faces)
+      for (int& node : face) node = number[as_index(node)];
     return curved(filled);
   }
 
@@ -168,7 +157,7 @@ class Mesher {
           for (const Plane& plane : {planes[p], planes[q], third}) corner[plane.axis] = plane.at;
           if (std::none_of(net.vertices().begin(), net.vertices().end(),
                            [&](const Vec3& v) { return v == corner; }) &&
-              inside(body_.parts.front().surface, corner))
+              geometry::encloses(body_.parts.front().surface, corner))
             net.add(corner);
         }
       }
@@ -188,7 +177,7 @@ class Mesher {
           const int a = on_line[i - 1].second;
           const int b = on_line[i].second;
           const Vec3 middle = 0.5 * (net.vertices()[as_index(a)] + net.vertices()[as_index(b)]);
-          if (!inside(body_.parts.front().surface, middle)) continue;
+          if (!geometry::encloses(body_.parts.front().surface, middle)) continue;
           const bool kept =
               std::all_of(order_.mirrors.begin(), order_.mirrors.end(),
                           [&](const Plane& mirror) { return mirror.beyond(middle) >= 0.0; });
@@ -221,7 +210,7 @@ class Mesher {
         vertices.push_back(segment[end]);
         points.emplace_back(place[across], place[up]);
       }
-      edges.push_back(edge);
+      edges.push_back({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
     }
     const auto triangles = meshing::cgal_library::triangulated(points, edges);
     if (!triangles)
@@ -264,7 +253,7 @@ class Mesher {
           }
         }
       }
-      if (!inside(body_.parts.front().surface, middle)) continue;
+      if (!geometry::encloses(body_.parts.front().surface, middle)) continue;
       for (const std::size_t t : together) {
         const auto& [a, b, c] = (*triangles)[t];
         net.add({vertices[as_index(a)], vertices[as_index(b)], vertices[as_index(c)]}, number);
@@ -272,34 +261,19 @@ class Mesher {
     }
   }
 
-  // The tissue at a place inside.
-  [[nodiscard]] int region_at(const Vec3& place) const {
+  // The tissue at a place; none in a cavity.
+  [[nodiscard]] std::optional<int> region_at(const Vec3& place) const {
     int found = 0;
-    if (order_.shape) found = geometry::region_at(body_, place).value_or(0);
+    if (order_.shape)
+      found = geometry::region_at(body_, place).value_or(0);
+    else if (!geometry::encloses(body_.parts.front().surface, place))
+      return std::nullopt;
     if (order_.region_of) found = order_.region_of(found);
     for (const Inclusion& one : order_.inclusions)
       if (one.lump ? (place - one.lump->centre).norm() < one.lump->radius
                    : place.z() > one.bottom && place.z() < one.top)
         found = one.region;
     return found;
-  }
-
-  // TetGen's numbers of enclosed parts become those of tissues, by one place in each.
-  void name_regions(geometry::TetMesh& mesh) const {
-    std::map<int, std::pair<double, int>> largest;
-    for (int t = 0; t < static_cast<int>(mesh.tetrahedra.size()); ++t) {
-      auto& [volume, which] = largest[mesh.region(t)];
-      const double own = geometry::signed_volume(mesh, t);
-      if (own > volume) std::tie(volume, which) = std::pair(own, t);
-    }
-    std::map<int, int> names;
-    for (const auto& [number, best] : largest) {
-      Vec3 middle = Vec3::Zero();
-      for (const int node : mesh.tetrahedra[as_index(best.second)])
-        middle += 0.25 * mesh.nodes[as_index(node)];
-      names[number] = region_at(middle);
-    }
-    for (int& region : mesh.regions) region = names[region];
   }
 
   // With the middles of the edges of faces on the true boundary.

@@ -8,10 +8,13 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/cuboid.h"
 #include "geometry/shapes.h"
+#include "meshing/mesh_files.h"
 #include "meshing/surface_files.h"
 #include "run/choose.h"
 #include "run/refined_mesh.h"
+#include "run_text.h"
 #include "scene/scene.h"
 
 namespace palpate::scene {
@@ -110,6 +113,74 @@ TEST_F(PlacedBody, a_place_is_taken_to_the_surface_and_pressed_along_its_normal)
   EXPECT_NEAR(lump.centre[0], *side.finger.x, 1e-9);  // the lump lies below the finger
   EXPECT_NEAR(lump.centre[1], *side.finger.y, 1e-9);
   EXPECT_NEAR(lump.centre[2], 0.010, 1e-9);
+}
+
+// A box of 60 x 60 x 40 mm with a cavity of 20 x 20 x 10 mm, 5 mm below its top.
+class HollowBody : public PlacedBody {
+ protected:
+  HollowBody() {
+    geometry::Surface hollow =
+        geometry::sampled(geometry::Cuboid{Vec3(60, 60, 40)}, {5.0, 5.0}).parts.front().surface;
+    const geometry::Surface inner =
+        geometry::sampled(geometry::Cuboid{Vec3(20, 20, 10)}, {5.0, 5.0}).parts.front().surface;
+    const int outer = static_cast<int>(hollow.vertices.size());
+    for (const Vec3& vertex : inner.vertices) hollow.vertices.push_back(vertex + Vec3(20, 20, 25));
+    for (const auto& [a, b, c] : inner.triangles)
+      hollow.triangles.push_back({outer + a, outer + c, outer + b});
+    meshing::write_surface(folder_ + "/box.off", hollow, 1.0);
+  }
+
+  [[nodiscard]] std::pair<double, double> force(const std::string& body) const {
+    const std::string text = "[tissue]\nyoung_modulus = \"10 kPa\"\nviscosity = \"none\"\n" + body +
+                             "[solver]\nmodel = \"coupled_springs\"\n[finger]\nradius = \"6 mm\"\n"
+                             "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n";
+    const scenario::Family family = scenario::parse(text, folder_ + "/press.toml", {});
+    const record::CaseRecord record =
+        test::run_scene(run::build_scene(family.cases.front(), family));
+    EXPECT_EQ(record.outcome, record::Outcome::completed) << record.reason;
+    return {record.contact.back().contact_force, test::found(record, "stated_error")};
+  }
+};
+
+TEST_F(HollowBody, is_as_soft_from_a_surface_as_from_tetrahedra) {
+  geometry::TetMesh mesh =
+      geometry::cuboid({0.060, 0.060, 0.040}, {12, 12, 8}, geometry::CellPattern::mirrored);
+  std::erase_if(mesh.tetrahedra, [&](const auto& corners) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : corners) middle += 0.25 * mesh.nodes[as_index(node)];
+    return ((middle - Vec3(0.030, 0.030, 0.030)).cwiseAbs().array() <
+            Vec3(0.010, 0.010, 0.005).array())
+        .all();
+  });
+  std::vector<int> number(mesh.nodes.size(), -1);
+  geometry::TetMesh hollow;
+  for (auto corners : mesh.tetrahedra) {
+    for (int& node : corners) {
+      int& own = number[as_index(node)];
+      if (own < 0) {
+        own = static_cast<int>(hollow.nodes.size());
+        hollow.nodes.push_back(mesh.nodes[as_index(node)]);
+      }
+      node = own;
+    }
+    hollow.tetrahedra.push_back(corners);
+  }
+  meshing::write_node_ele(folder_ + "/hollow.node", hollow);
+  const auto [by_mesh, stated] =
+      force("shape = { kind = \"as_meshed\" }\nmesh = { file = \"hollow.node\", unit = \"m\" }\n");
+  const auto [by_surface, also_stated] = force("shape = { file = \"box.off\", unit = \"mm\" }\n");
+  EXPECT_NEAR(by_surface, by_mesh, (stated + also_stated) * by_mesh);
+  const auto [filled, of_filled] =
+      force("shape = { file = \"box.off\", unit = \"mm\", part = 1 }\n");
+  EXPECT_GT(filled, (1.0 + stated + of_filled) * by_mesh);
+}
+
+// 1 mm from the cavity's wall, and 4 mm from the top.
+TEST_F(HollowBody, is_pressed_from_outside_wherever_the_place_is) {
+  const scenario::Resolved pressed =
+      placed("", "[finger]\nat = [\"32 mm\", \"29 mm\", \"36 mm\"]\n");
+  EXPECT_NEAR((pressed.tissue.turn - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(*pressed.finger.x, 0.032, 1e-9);
 }
 
 TEST_F(PlacedBody, what_does_not_go_together_is_refused) {

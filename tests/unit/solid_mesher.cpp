@@ -103,6 +103,35 @@ TEST(SolidMesher, MiddlesLieOnTheTrueBoundary) {
   EXPECT_EQ(on, all);
 }
 
+// Whole, and cut in two by a mirror through the cavity.
+TEST(SolidMesher, ACavityStaysEmpty) {
+  const auto sphere = [](double size) {
+    return geometry::sampled(geometry::Ellipsoid{Vec3::Constant(size)}, {0.1 * size, 0.1 * size})
+        .parts.front()
+        .surface;
+  };
+  const Vec3 middle = Vec3::Constant(0.020);
+  geometry::Surface surface = sphere(0.040);
+  const int outer = int(surface.vertices.size());
+  geometry::Surface inner = sphere(0.016);
+  for (const Vec3& vertex : inner.vertices)
+    surface.vertices.push_back(vertex + Vec3::Constant(0.012));
+  for (const auto& [a, b, c] : inner.triangles)
+    surface.triangles.push_back({outer + a, outer + c, outer + b});
+  const geometry::SmoothSurface smooth(surface);
+  const double want = ball * (std::pow(0.020, 3) - std::pow(0.008, 3));
+  for (const bool cut : {false, true}) {
+    MeshOrder order = box();
+    order.shape.reset();
+    order.surface = &smooth;
+    order.sizes = {{{Vec3(0.020, 0.020, 0.040), 0.003, 0.002}}, 0.006};
+    if (cut) order.mirrors = {{1, 0.020}};
+    const Mesh mesh = mesh_for(order);
+    EXPECT_NEAR(volumes(mesh)[0], cut ? 0.5 * want : want, 0.01 * want);
+    for (const Vec3& node : mesh.nodes) EXPECT_GT((node - middle).norm(), 0.0070);  // chords
+  }
+}
+
 TEST(SolidMesher, RefinesGivenTetrahedraWithTheirRegions) {
   geometry::TetMesh given =
       geometry::cuboid({0.040, 0.036, 0.020}, {4, 4, 2}, geometry::CellPattern::mirrored);
