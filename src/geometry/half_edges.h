@@ -32,4 +32,13 @@ struct Joints {
 // The triangles have three different corners each.
 [[nodiscard]] Joints joints(const Surface& surface);
 
+// A connected part of a surface, with its own vertices.
+struct SurfacePart {
+  Surface surface;
+  std::vector<int> triangles;  // of the whole surface, ascending
+};
+
+// In the order of their first triangles; none if triangles cannot be joined.
+[[nodiscard]] std::vector<SurfacePart> parts_of(const Surface& surface);
+
 }  // namespace palpate::geometry

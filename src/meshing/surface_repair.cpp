@@ -142,25 +142,21 @@ class SurfaceChecker {
 
   // All parts but the largest are cavities in it, and face inwards.
   void parts() const {
-    const std::vector<int>& first = joints_.first_triangles;
-    const int count = static_cast<int>(first.size());
-    if (count < 2) return;
-    std::vector<geometry::Surface> own(first.size(), {surface_.vertices, {}});
-    for (int f = 0; f < faces(); ++f)
-      own[as_index(joints_.part[as_index(f)])].triangles.push_back(corners(f));
+    const std::vector<geometry::SurfacePart> parts = geometry::parts_of(surface_);
     std::vector<double> volumes;
-    for (const geometry::Surface& part : own) volumes.push_back(geometry::enclosed(part).volume);
+    for (const auto& part : parts) volumes.push_back(geometry::enclosed(part.surface).volume);
     const auto outer = std::max_element(volumes.begin(), volumes.end()) - volumes.begin();
-    for (int p = 0; p < count; ++p) {
+    for (int p = 0; p < static_cast<int>(parts.size()); ++p) {
       if (p == outer) continue;
       geometry::Surface others{surface_.vertices, {}};
       for (int f = 0; f < faces(); ++f)
         if (joints_.part[as_index(f)] != p) others.triangles.push_back(corners(f));
-      const int start = corners(first[as_index(p)])[0];
+      const int face = parts[as_index(p)].triangles.front();
+      const int start = corners(face)[0];
       const bool within = geometry::encloses(others, at(start));
       if (within && volumes[as_index(p)] < 0.0) continue;
-      fail("has " + std::to_string(count) + " parts, and the one with face " +
-           std::to_string(first[as_index(p)]) + place(start) +
+      fail("has " + std::to_string(parts.size()) + " parts, and the one with face " +
+           std::to_string(face) + place(start) +
            (within ? " lies inside the others and faces outwards; turn its faces round if it is a "
                      "cavity, or remove it"
                    : " lies beside the others; keep one of them, or join them into one surface"));
@@ -370,23 +366,10 @@ std::string changes(const Mending& made, int joined) {
 }
 
 // The connected parts by falling volume.
-std::vector<geometry::Surface> parts_of(const geometry::Surface& surface) {
-  const geometry::Joints joints = geometry::joints(surface);
-  std::vector<geometry::Surface> parts(joints.first_triangles.size());
-  std::vector<int> number(surface.vertices.size(), -1);
-  for (std::size_t t = 0; t < surface.triangles.size() && !joints.refused; ++t) {
-    geometry::Surface& part = parts[as_index(joints.part[t])];
-    std::array<int, 3> corners = surface.triangles[t];
-    for (int& corner : corners) {
-      int& own = number[as_index(corner)];
-      if (own < 0) {
-        own = static_cast<int>(part.vertices.size());
-        part.vertices.push_back(surface.vertices[as_index(corner)]);
-      }
-      corner = own;
-    }
-    part.triangles.push_back(corners);
-  }
+std::vector<geometry::Surface> by_volume(const geometry::Surface& surface) {
+  std::vector<geometry::Surface> parts;
+  for (geometry::SurfacePart& part : geometry::parts_of(surface))
+    parts.push_back(std::move(part.surface));
   std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
     return std::abs(geometry::enclosed(a).volume) > std::abs(geometry::enclosed(b).volume);
   });
@@ -406,7 +389,7 @@ void add_part(geometry::Surface& surface, const geometry::Surface& part, bool tu
 // Leaves one part and, where none is asked for, the cavities in it; tells what there was besides.
 std::string choose_part(geometry::Surface& surface, const std::string& name,
                         const std::optional<int>& wanted) {
-  std::vector<geometry::Surface> parts = parts_of(surface);
+  std::vector<geometry::Surface> parts = by_volume(surface);
   const int count = static_cast<int>(parts.size());
   if (wanted && *wanted > count)
     throw MeshError("surface `" + name + "`: has " + many(count, "part") + ", and `part` is " +

@@ -18,6 +18,7 @@ namespace palpate::record {
 
 // The parts of a scene at rest that a picture shows.
 struct ScenePicture {
+  static constexpr const char* cavity = "cavity";
   struct Face {
     std::array<Vec3, 3> corners;  // m, counter-clockwise from outside
     int region = 0;               // on the inner side of the face
@@ -29,7 +30,7 @@ struct ScenePicture {
     double radius = 0.0;         // m
   };
   std::vector<Face> faces;             // of the specimen at rest; empty: no picture
-  std::vector<std::string> materials;  // one per region
+  std::vector<std::string> materials;  // one per region; after them `cavity`, if there is one
   std::string base;                    // what holds the held faces
   std::vector<Sphere> finger;          // at its first touch
   double travel = 0.0;                 // m, the deepest

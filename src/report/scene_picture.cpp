@@ -301,8 +301,9 @@ std::string legend(const ScenePicture& picture) {
   };
   for (std::size_t i = 0; picture.materials.size() > 1 && i < picture.materials.size(); ++i)
     entry(colour(static_cast<int>(i)),
-          i == 0 ? picture.materials[i]
-                 : picture.materials[i] + " (region " + std::to_string(i) + ")");
+          i == 0 || picture.materials[i] == ScenePicture::cavity
+              ? picture.materials[i]
+              : picture.materials[i] + " (region " + std::to_string(i) + ")");
   if (!picture.base.empty()) entry(held_colour, picture.base);
   return text;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/body.h"
+#include "geometry/half_edges.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
 #include "scene/specimen_mesh.h"
@@ -190,22 +191,43 @@ void mark_held(const scenario::Resolved& scenario, std::vector<Face>& all) {
   }
 }
 
+// The walls of cavities, seen from the tissue around them.
+std::vector<Face> cavity_faces(const geometry::Surface& skin, int region) {
+  std::vector<Face> found;
+  for (const auto& [part, triangles] : geometry::parts_of(skin)) {
+    if (geometry::enclosed(part).volume > 0.0) continue;
+    for (const auto& [a, b, c] : part.triangles)
+      found.push_back(
+          {{part.vertices[as_index(a)], part.vertices[as_index(c)], part.vertices[as_index(b)]},
+           region,
+           0});
+  }
+  return found;
+}
+
 }  // namespace
 
 record::ScenePicture picture_of(const scene::Scene& scene) {
   const scenario::Resolved& scenario = scene.scenario;
   record::ScenePicture picture;
-  picture.faces = scene.specimen                     ? faces(scene.specimen->mesh)
-                  : scene.solid && scene.solid->mesh ? faces(*scene.solid->mesh)
-                                                     : faces(given_body(scene), scenario);
+  const geometry::TetMesh* mesh = scene.specimen                     ? &scene.specimen->mesh
+                                  : scene.solid && scene.solid->mesh ? &*scene.solid->mesh
+                                                                     : nullptr;
+  const geometry::Body body = mesh ? geometry::Body{} : given_body(scene);
+  picture.faces = mesh ? faces(*mesh) : faces(body, scenario);
   if (!std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape)) {
     mark_held(scenario, picture.faces);
     picture.base =
         scenario.tissue.base == tissue::Base::bonded ? "held (bonded base)" : "on a table (slides)";
   }
-  picture.faces = thinned(std::move(picture.faces));
   picture.materials = {scenario.tissue.material};
   for (const auto& region : scenario.regions) picture.materials.push_back(region.material);
+  const std::vector<Face> walls =
+      cavity_faces(mesh ? geometry::skin(*mesh).surface : body.parts.front().surface,
+                   static_cast<int>(picture.materials.size()));
+  if (!walls.empty()) picture.materials.emplace_back(record::ScenePicture::cavity);
+  picture.faces.insert(picture.faces.end(), walls.begin(), walls.end());
+  picture.faces = thinned(std::move(picture.faces));
 
   // From the scene, where the finger comes down, to the body as it stands.
   picture.axes = scene::standing(scenario);

@@ -194,22 +194,14 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
 
 // The nearest place of a surface without the walls of its cavities.
 geometry::SurfacePoint nearest_outside(const geometry::Surface& surface, const Vec3& place) {
-  const geometry::Joints joints = geometry::joints(surface);
-  std::vector<geometry::Surface> parts(joints.first_triangles.size(), {surface.vertices, {}});
-  std::vector<std::vector<int>> numbers(parts.size());
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const std::size_t part = as_index(joints.part[t]);
-    parts[part].triangles.push_back(surface.triangles[t]);
-    numbers[part].push_back(static_cast<int>(t));
-  }
   geometry::SurfacePoint found;
   double least = HUGE_VAL;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (geometry::enclosed(parts[p]).volume < 0.0) continue;
-    const geometry::Near near = geometry::BoxTree(parts[p]).nearest(place);
+  for (const auto& [part, triangles] : geometry::parts_of(surface)) {
+    if (geometry::enclosed(part).volume < 0.0) continue;
+    const geometry::Near near = geometry::BoxTree(part).nearest(place);
     if (near.distance_squared >= least) continue;
     least = near.distance_squared;
-    found = {numbers[p][as_index(near.triangle)], near.weights};
+    found = {triangles[as_index(near.triangle)], near.weights};
   }
   return found;
 }

@@ -13,6 +13,7 @@
 #include "meshing/mesh_files.h"
 #include "meshing/surface_files.h"
 #include "run/choose.h"
+#include "run/picture.h"
 #include "run/refined_mesh.h"
 #include "run_text.h"
 #include "scene/scene.h"
@@ -181,6 +182,23 @@ TEST_F(HollowBody, is_pressed_from_outside_wherever_the_place_is) {
       placed("", "[finger]\nat = [\"32 mm\", \"29 mm\", \"36 mm\"]\n");
   EXPECT_NEAR((pressed.tissue.turn - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-12);
   EXPECT_NEAR(*pressed.finger.x, 0.032, 1e-9);
+}
+
+TEST_F(HollowBody, shows_its_cavity) {
+  const scenario::Family family = scenario::parse(
+      "[tissue]\nshape = { file = \"box.off\", unit = \"mm\" }\n[[step]]\nkind = \"indent\"\n"
+      "to = \"0.1 mm\"\n",
+      folder_ + "/press.toml", {});
+  const record::ScenePicture picture =
+      run::picture_of(run::build_scene(family.cases.front(), family));
+  EXPECT_EQ(picture.materials.back(), "cavity");
+  double volume = 0.0;
+  for (const auto& face : picture.faces)
+    if (face.region == 1) {
+      EXPECT_EQ(face.within, 0);
+      volume += face.corners[0].dot(face.corners[1].cross(face.corners[2])) / 6.0;
+    }
+  EXPECT_NEAR(volume, 0.020 * 0.020 * 0.010, 1e-12);
 }
 
 TEST_F(PlacedBody, what_does_not_go_together_is_refused) {
