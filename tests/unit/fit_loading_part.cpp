@@ -247,6 +247,9 @@ TEST(StepOrigin, WhatIsNoRamp) {
   EXPECT_EQ(ramp_of({0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 4.9}), 0.0);
   EXPECT_EQ(ramp_of({0.9, 0.95, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 0.0);
   EXPECT_GT(ramp_of({0.0, 0.5, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 1.5);
+  // Its first row is at most four fifths of its end.
+  EXPECT_GT(ramp_of({0.79, 0.9, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 1.5);
+  EXPECT_EQ(ramp_of({0.81, 0.9, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 0.0);
 }
 
 // What begins within a row's distance of the clock's zero begins there.
