@@ -275,13 +275,13 @@ measured::MeasuredCurve guessed_curve(const Data& command) {
 }
 
 // The options by which the curve was read, which `fit` needs as well.
-std::string options_of(const DataOptions& given) {
+std::string options_of(const DataOptions& given, bool mass) {
   std::string line;
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) line += std::string(" ") + option + " " + quoted(value);
   };
   add("--x-unit", given.x_unit);
-  add("--y-unit", given.y_unit);
+  if (!mass) add("--y-unit", given.y_unit);  // its weight follows
   add("--skip", given.skip >= 0 ? std::to_string(given.skip) : "");
   add("--separator", given.separator);
   add("--decimal", given.decimal);
@@ -302,7 +302,8 @@ std::string options_of(const DataOptions& given) {
 std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
                       const std::string& law) {
   std::string line = "palpate fit " + quoted(command.data) + " --x " + quoted(curve.x_axis.column) +
-                     " --y " + quoted(curve.y_axis.column) + options_of(command.columns);
+                     " --y " + quoted(curve.y_axis.column) +
+                     options_of(command.columns, curve.y_axis.mass);
   for (const std::string& note : curve.notes)
     if (note.ends_with("sign changed") && command.columns.compression == "auto") {
       line += " --compression auto";

@@ -366,6 +366,9 @@ TEST_F(FitCurves, data_repeats_the_options_of_reading) {
             std::string::npos)
       << said;
   EXPECT_EQ(said.find("neo-Hookean"), std::string::npos) << said;
+  const std::string grams =
+      palpate(folder_.path(), {"data", "made.csv", "--x-unit", "mm", "--y-unit", "g"}).out;
+  EXPECT_NE(grams.find("--y 2 --x-unit mm --y-unit gf --model hertz"), std::string::npos) << grams;
   fit("made.csv", {"--x",       "1",     "--y",           "2",        "--x-unit",    "mm",
                    "--y-unit",  "N",     "--skip",        "1",        "--separator", ";",
                    "--decimal", ".",     "--compression", "negative", "--rows",      "1..90",
