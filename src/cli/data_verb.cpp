@@ -193,21 +193,23 @@ LargeStrain large_strain(const measured::MeasuredCurve& curve) {
 }
 
 // Contact point, baseline and noise of a force over a length. Both follow from the shape of a
-// paraboloid's curve, whatever its radius; `platens` becomes the model of a specimen between
-// platens where that does not describe the whole curve.
+// paraboloid's curve, whatever its radius, here one so large that nothing is said of large strains;
+// `platens` becomes the model of a specimen between platens where that does not describe the whole
+// curve.
 std::string contact_lines(const measured::MeasuredCurve& curve, std::string& platens,
                           const Talk& talk) {
   const char* line =
       "a straight line describes the curve better than the law of a round tip, as of a specimen "
       "between platens\n";
   try {
-    const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e-3});
-    const bool straight = is_straight(curve, fit.rmse);
-    if (!straight && !fit.gave_way) platens = compressed_law(curve, fit.rmse);
+    const fit::Fit fit = fit::fit_contact(curve.x, curve.y, {.radius = 1e3});
+    const bool tip = curve.bending > 0.0;  // of a cantilever, not platens
+    const bool straight = !tip && is_straight(curve, fit.rmse);
+    if (!straight && !tip && !fit.gave_way) platens = compressed_law(curve, fit.rmse);
     const bool compressed = !platens.empty();
     std::string text;
     const bool round = fit.r2 >= 0.9 && !fit.gave_way && !straight && !compressed;
-    if (!compressed && !round) platens = "modulus";
+    if (!compressed && !round && !tip) platens = "modulus";
     Details details{{"round_tip", round},
                     {"straight", straight},
                     {"compressed", compressed},
@@ -263,12 +265,36 @@ measured::MeasuredCurve guessed_curve(const Data& command) {
   over_time.compression.clear();  // a load that relaxes is not one that grows downwards
   try {
     measured::MeasuredCurve held = measured::read_measured(command.data, over_time);
-    held.notes.push_back("`" + curve.x_axis.column + "` stays over " + std::to_string(stays) +
-                         " of " + std::to_string(curve.x.size()) + " rows, as in a hold");
+    if (held.y_axis.column != curve.x_axis.column)  // which creeps
+      held.notes.push_back("`" + curve.x_axis.column + "` stays over " + std::to_string(stays) +
+                           " of " + std::to_string(curve.x.size()) + " rows, as in a hold");
     return held;
   } catch (const InputError&) {  // no column of times
     return curve;
   }
+}
+
+// The options by which the curve was read, which `fit` needs as well.
+std::string options_of(const DataOptions& given, bool mass) {
+  std::string line;
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) line += std::string(" ") + option + " " + quoted(value);
+  };
+  add("--x-unit", given.x_unit);
+  if (!mass) add("--y-unit", given.y_unit);  // its weight follows
+  add("--skip", given.skip >= 0 ? std::to_string(given.skip) : "");
+  add("--separator", given.separator);
+  add("--decimal", given.decimal);
+  add("--compression", given.compression == "auto" ? "" : given.compression);
+  add("--segment", given.segment);
+  for (const std::string& each : given.where) add("--where", each);
+  add("--rows", given.rows);
+  add("--table", given.table > 0 ? std::to_string(given.table) : "");
+  add("--spring-constant", given.spring_constant);
+  add("--compliance", given.compliance);
+  add("--drift", given.drift);
+  add("--case", given.case_name);
+  return line;
 }
 
 // What to type next for the dimensions of the two columns; `law` is that of a specimen, if one is
@@ -276,9 +302,10 @@ measured::MeasuredCurve guessed_curve(const Data& command) {
 std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
                       const std::string& law) {
   std::string line = "palpate fit " + quoted(command.data) + " --x " + quoted(curve.x_axis.column) +
-                     " --y " + quoted(curve.y_axis.column);
+                     " --y " + quoted(curve.y_axis.column) +
+                     options_of(command.columns, curve.y_axis.mass);
   for (const std::string& note : curve.notes)
-    if (note.ends_with("sign changed")) {
+    if (note.ends_with("sign changed") && command.columns.compression == "auto") {
       line += " --compression auto";
       break;
     }
@@ -295,8 +322,8 @@ std::string next_line(const Data& command, const measured::MeasuredCurve& curve,
       lower_case(curve.y_axis.column).find("defl") != std::string::npos)
     return line + " --spring-constant \"... N/m\" --model hertz --radius \"... mm\" --poisson 0.5";
   if (x == unit::s.dimension)
-    return line +
-           (y == Dimension{} ? " --model prony_creep --terms 1" : " --model prony --terms 1");
+    return line + (y == Dimension{} || y == unit::mm.dimension ? " --model prony_creep --terms 1"
+                                                               : " --model prony --terms 1");
   if (curve.y_axis.mass) line += " --y-unit " + curve.y_axis.unit + "f";
   if (x == unit::mm.dimension && curve.y_axis.mass)
     return line + " --model hertz --radius \"... mm\" --poisson 0.5";

@@ -244,11 +244,23 @@ void say_what_is_odd(const fit::Fit& result, const Talk& talk) {
     talk.say("note: " + std::to_string(result.left_out) +
              (result.left_out == 1 ? " point is" : " points are") +
              " left out: not finite, or x <= 0 where its logarithm is needed");
-  if (!(result.name == "prony" || result.name == "prony_creep")) return;
-  for (std::size_t i = 1; i < result.parameters.size(); i += 2)
-    if (result.parameters[i].estimate < 0.0)
-      talk.say("note: `" + result.parameters[i].name +
-               "` is below 0, which no passive tissue has; give fewer `--terms`");
+  const bool creep = result.name == "prony_creep";
+  if (!(creep || result.name == "prony")) return;
+  // A load that is negative in compression turns the signs of all of them.
+  double whole = 0.0;
+  std::size_t terms = 0;
+  for (const fit::Estimate& one : result.parameters) {
+    if (one.name.starts_with("y_")) whole += one.estimate;
+    if (one.name.starts_with("tau_")) ++terms;
+  }
+  for (const fit::Estimate& one : result.parameters)
+    if (one.name.starts_with("y_") && one.name != "y_inf" && one.name != "y_0" &&
+        one.estimate * whole < 0.0)
+      talk.say("note: `" + one.name + "` is " + (whole > 0.0 ? "below" : "above") +
+               " 0, which no passive tissue has; " +
+               (terms > 1 ? "give fewer `--terms`"
+                : creep   ? "fit `prony`, whose curve falls"
+                          : "fit `prony_creep`, whose curve rises"));
 }
 
 // One line per parameter, then the formula and how well it fits.

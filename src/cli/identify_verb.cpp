@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/index.h"
 #include "base/text.h"
 #include "cli/program.h"
 #include "cli/table_text.h"
@@ -93,6 +94,33 @@ std::string begin_with_programme(const Identify& command, const scenario::Scenar
                        "loading history and the rows before are missing");
 }
 
+// Strains below 0, and stretches below 1, are the compression that the scenario counts as positive,
+// from its beginning on; says so.
+std::string turn_compression(const scenario::Scenario& scenario, measured::MeasuredCurve& curve) {
+  if (!std::holds_alternative<scenario::Compress>(scenario.steps.front()) ||
+      !(curve.x_axis.dimension == Dimension{}) ||
+      !(curve.y_axis.dimension == unit::kPa.dimension) || curve.x.empty())
+    return {};
+  const auto [least, most] = std::minmax_element(curve.x.begin(), curve.x.end());
+  if (*least > -0.1 * *most) {
+    if (!curve.x_axis.stretch) return {};
+    throw InputError({curve.file, 0, 0},
+                     "`" + curve.x_axis.column +
+                         "` is a stretch above 1, which is tension, and "
+                         "the scenario compresses; fit it by `palpate fit --model ogden`");
+  }
+  const bool load = curve.y[as_index(least - curve.x.begin())] < 0.0;
+  for (double& each : curve.x) each = 0.0 - each;
+  if (load)
+    for (double& each : curve.y) each = 0.0 - each;
+  if (curve.x.front() > curve.x.back()) {
+    std::reverse(curve.x.begin(), curve.x.end());
+    std::reverse(curve.y.begin(), curve.y.end());
+  }
+  return "`" + curve.x_axis.column + "` is negative in compression; sign changed" +
+         (load ? ", and that of `" + curve.y_axis.column + "`" : "");
+}
+
 identify::Measurement read_measurement(const Identify& command, const std::string& data,
                                        const scenario::Scenario& scenario, const Talk& talk) {
   measured::MeasuredCurve curve = measured::read_measured(data, command.columns);
@@ -102,6 +130,8 @@ identify::Measurement read_measurement(const Identify& command, const std::strin
     talk.say(where + "x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
   if (curve.x_axis.stretch)
     for (double& each : curve.x) each -= 1.0;
+  if (const std::string turned = turn_compression(scenario, curve); !turned.empty())
+    talk.say(where + turned);
   std::vector<double> starts;
   if (const std::string found = begin_with_programme(command, scenario, curve, starts);
       !found.empty())

@@ -356,10 +356,10 @@ class ContactFit {
     static constexpr std::array<const char*, 3> words{"no baseline", "a force offset",
                                                       "a force offset and a tilt"};
     fit_.law += ", with " + std::string(words[as_index(choice.baseline)]);
-    fit_.notes.push_back(std::to_string(result.before) + " points lie before contact and " +
-                         std::to_string(result.beyond) + " beyond, up to a depth of " +
-                         rounded_text(unit::mm.from_si(result.deepest)) +
-                         " mm below the contact point");
+    fit_.notes.push_back(
+        std::to_string(result.before) + (result.before == 1 ? " point lies" : " points lie") +
+        " before contact and " + std::to_string(result.beyond) + " beyond, up to a depth of " +
+        rounded_text(unit::mm.from_si(result.deepest)) + " mm below the contact point");
     static constexpr std::array<const char*, 3> short_words{"none", "offset", "tilt"};
     for (const auto& [other, factor] : choice.others) {
       const double change = factor / choice.guess.factor - 1.0;

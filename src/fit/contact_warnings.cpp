@@ -1,6 +1,7 @@
 // Sentences on the limits of a contact fit.
 #include "fit/contact_warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,22 +19,26 @@ double error_of_hertz(double depth, double radius) {
   return tip_force(paraboloid, depth).force / tip_force(sphere, depth).force - 1.0;
 }
 
-// The force of a sphere on neo-Hookean tissue at the deepest row against the law fitted, minus 1; 0
-// where it is not known.                                                       docs/theory.md
+// The force of a sphere on neo-Hookean tissue at the deepest row, or as deep as it is known,
+// against the law fitted, minus 1; 0 where it is not known.                      docs/theory.md
 // [deep]
-double change_by_strain(const ContactResult& result) {
+struct Change {
+  double depth = 0.0, change = 0.0;
+};
+Change change_by_strain(const ContactResult& result) {
   const ContactTest& test = result.test;
   const bool round = test.tip == Tip::Kind::paraboloid || test.tip == Tip::Kind::sphere;
-  if (!round) return 0.0;
+  if (!round) return {};
   const auto ratio = contact::depth_ratio(
       {.radius = test.radius,
        .thickness = test.thickness.value_or(std::numeric_limits<double>::infinity()),
        .poisson_ratio = test.poisson_ratio,
        .base = test.base});
-  if (!ratio || result.deepest > ratio->last_depth()) return 0.0;
+  if (!ratio) return {};
+  const double depth = std::min(result.deepest, ratio->last_depth());
   const double linear =  // of the paraboloid, to which the ratio refers
-      test.tip == Tip::Kind::sphere ? 1.0 + error_of_hertz(result.deepest, test.radius) : 1.0;
-  return ratio->value(result.deepest) * linear - 1.0;
+      test.tip == Tip::Kind::sphere ? 1.0 + error_of_hertz(depth, test.radius) : 1.0;
+  return {depth, ratio->value(depth) * linear - 1.0};
 }
 
 std::string rows_text(std::size_t count) {
@@ -74,12 +79,14 @@ void warn_of_contact(Fit& fit, const ContactResult& result) {
            (test.thickness ? "; give a smaller depth by `--to`"
                            : "; give `--tip sphere`, or a smaller depth by `--to`"));
   }
-  if (const double change = change_by_strain(result); std::abs(change) > 0.02)
+  if (const auto [depth, change] = change_by_strain(result); std::abs(change) > 0.02)
     fit.notes.push_back(
-        "the law is that of small strains: in neo-Hookean tissue the force at the "
-        "largest depth is " +
-        percent_text(std::abs(change)) + (change < 0.0 ? " lower" : " higher") +
-        ", which `palpate identify` takes into account");
+        "the law is that of small strains: in neo-Hookean tissue the force at " +
+        (depth < result.deepest ? "a depth of " + rounded_text(unit::mm.from_si(depth)) + " mm"
+                                : std::string("the largest depth")) +
+        " is " + percent_text(std::abs(change)) + (change < 0.0 ? " lower" : " higher") +
+        (depth < result.deepest ? " already, and how much beyond is not known"
+                                : ", which `palpate identify` takes into account"));
   warn_of_residuals(fit);
 }
 

@@ -89,7 +89,9 @@ std::size_t rows_before_break(std::span<const double> force) {
 
 std::size_t rows_before_fall(std::span<const double> stress, double share) {
   if (stress.empty()) return 0;
-  const double noise = noise_of(stress);
+  // The largest of n values of noise lies 2 sqrt(2 ln n) deviations above the least.
+  const double spread = 2.0 * std::sqrt(2.0 * std::log(static_cast<double>(stress.size())));
+  const double clear = std::max(6.0, spread) * noise_of(stress);
   // What falls below a tenth of the whole rise is slack that gives way, or noise.
   const double rise = *std::max_element(stress.begin(), stress.end()) - stress[0];
   std::size_t peak = 0;
@@ -97,7 +99,7 @@ std::size_t rows_before_fall(std::span<const double> stress, double share) {
     if (stress[i] > stress[peak]) peak = i;
     const double fall = stress[peak] - stress[i];
     const double risen = stress[peak] - stress[0];
-    if (risen > 0.1 * rise && fall > std::max(share * risen, 6.0 * noise)) return peak + 1;
+    if (risen > 0.1 * rise && fall > std::max(share * risen, clear)) return peak + 1;
   }
   return stress.size();
 }

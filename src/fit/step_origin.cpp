@@ -9,6 +9,7 @@
 #include "base/index.h"
 #include "base/numerics.h"
 #include "base/text.h"
+#include "fit/loading_part.h"
 
 namespace palpate::fit {
 
@@ -152,6 +153,14 @@ std::optional<StepOrigin> ramp_before(const Record& record, const Peak& peak, do
   const double low = std::abs(record.y[level]);
   const bool held = peak.first + 3 < record.x.size();
   if (level + 2 > peak.first || !held || low > 0.8 * std::abs(top)) return std::nullopt;
+  std::vector<double> rise;
+  for (std::size_t i = 0; i <= peak.first; ++i)
+    rise.push_back(std::copysign(1.0, top) * record.y[i]);
+  if (const std::size_t whole = rows_before_fall(rise, 0.1); whole < rise.size())
+    throw InputError({}, "the load falls by over 10 % from " + record.text(record.x[whole - 1]) +
+                             " on, and is largest at " + record.text(record.x[peak.first]) +
+                             ", so that it has several steps or cycles; choose the rows of one by "
+                             "`--rows`, or give the measured loading by `--history`");
   const std::size_t reach = std::max<std::size_t>((peak.first - level) / 3, 3);
   const std::size_t end =
       corner(record, peak.first, std::min(peak.first + reach, record.x.size() - 3), reach);
@@ -200,7 +209,8 @@ StepOrigin step_origin(std::span<const double> given_x, std::span<const double> 
       row = corner(record, peak.last - std::min(reach, peak.last - peak.first), peak.last, reach);
     }
   } else {
-    row = row_of_departure(record, noise);
+    // What follows a step at the clock's zero rises from the first row on, out of the noise later.
+    if (!spaced_by_a_factor(record)) row = row_of_departure(record, noise);
     if (row > 0 && rises_from_the_first_row(record, row, noise)) row = 0;
     // A jump lies after the last row of the level, which is none of the response.
     if (shape == AfterStep::rises && row > 0 &&

@@ -227,7 +227,8 @@ class UniaxialFit {
     if (test_.cycle > cycles)
       throw InputError({}, "the curve has " + std::to_string(cycles) +
                                (cycles == 1 ? " loading" : " loadings") + ", and `--cycle " +
-                               std::to_string(test_.cycle) + "` is not among them");
+                               std::to_string(test_.cycle) +
+                               "` is not among them; give one of 1 to " + std::to_string(cycles));
     if (cycles == 0) return;
     const Branch part = loadings[as_index(std::max(test_.cycle, 1) - 1)];
     if (part.from == 0 && part.to == size) return;

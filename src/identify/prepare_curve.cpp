@@ -67,12 +67,10 @@ class Preparation {
     double end = *std::max_element(measured_.x.begin(), measured_.x.end());
     if (travel && contact != nullptr) end -= contact->value(0.5);
     const bool goes_on = still_in_the_last_step(asked.scenario);
-    if (goes_on && lengthen(kind_, asked.scenario, end)) {
-      const CurveWords& words = words_of(kind_);
+    if (goes_on && lengthen(kind_, asked.scenario, end))
       found_.notes.push_back(
           "the loading history is shorter than the measurement and is lengthened to " +
-          rounded_text(words.x.from_si(end)) + " " + words.x.symbol);
-    }
+          x_text(end));
     const FixedRung rung = fix_rung(asked, family_.document, unknowns_);
     found_.given = rung.given;
     found_.worst_error = rung.worst_error;
@@ -99,6 +97,11 @@ class Preparation {
       if (measured_.x[i] > *end && std::abs(measured_.y[i] - held) > 0.5 * std::abs(held))
         return false;
     return true;
+  }
+
+  [[nodiscard]] std::string x_text(double si) const {
+    const Unit& unit = words_of(kind_).x;
+    return rounded_text(unit.from_si(si)) + (*unit.symbol == '\0' ? "" : " ") + unit.symbol;
   }
 
   void note_left_out(int points, const std::string& why) {
@@ -180,11 +183,9 @@ class Preparation {
         found_.measured.push_back(measured_.y[i]);
       }
     }
-    const CurveWords& words = words_of(kind_);
-    note_left_out(beyond, "beyond the loading history, which ends at " +
-                              rounded_text(words.x.from_si(rows->x.back())) + " " + words.x.symbol +
+    note_left_out(beyond, "beyond the loading history, which ends at " + x_text(rows->x.back()) +
                               " (its last step ends at a force, or the force leaves it)");
-    note_left_out(before, "before the loading history begins, at 0 " + std::string(words.x.symbol));
+    note_left_out(before, "before the loading history begins, at " + x_text(0.0));
     refuse_poor_data();
   }
 

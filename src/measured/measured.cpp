@@ -120,6 +120,7 @@ void take_off_deflection(MeasuredCurve& curve, const DataLayout& layout) {
                                      : "compliance; write it as `0.2 um/N`"));
   const double si = unit->factor.to_si(number->value);
   const double compliance = spring ? 1.0 / si : si;
+  if (spring) curve.bending = compliance;
   const bool deflection = spring && curve.y_axis.dimension == length;
   if (!(curve.x_axis.dimension == length) || !(curve.y_axis.dimension == force || deflection))
     throw InputError({curve.file, 0, 0},

@@ -101,7 +101,12 @@ void split_at_peak(const RawTable& table, const DataLayout& layout, const Axes& 
     throw InputError({table.file, table.header_line, 0},
                      "has no column `segment` or `step` for `--segment " + layout.segment +
                          "`; give `approach` or `retract`");
-  if (!approach && is_retract(table, axes, rows)) {
+  if (is_retract(table, axes, rows)) {
+    if (approach)
+      throw InputError({table.file, 0, 0},
+                       "goes one way only in `" + axes.x.name +
+                           "`, and its load changes most at its first rows: all of them are the "
+                           "way back; leave `--segment` out, or give `--segment retract`");
     rows.notes.push_back("`" + axes.x.name +
                          "` goes one way only, and its load changes most at its first rows: all of "
                          "them are taken as the retract");

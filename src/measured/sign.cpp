@@ -104,6 +104,7 @@ void orient(MeasuredCurve& curve, const DataLayout& layout) {
     throw InputError({}, "palpate: `--compression " + said +
                              "` is unknown; give `positive`, `negative` or `auto`");
   if (said.empty() || said == "positive" || curve.y.empty()) return;
+  if (said == "auto" && curve.x_axis.stretch) return;  // below 1 it is compression
   if (!is_load(curve.y_axis.dimension)) {
     if (said == "auto") return;
     throw InputError({curve.file, 0, 0}, "`" + curve.y_axis.column +

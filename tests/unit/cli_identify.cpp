@@ -184,5 +184,36 @@ TEST_F(IdentifyVerb, RefusesInSentences) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/press_identified"));
 }
 
+// P = E/3 (L^-2 - L) of an incompressible block, in the ways in which laboratories write its
+// compression.
+TEST_F(IdentifyVerb, CompressionIsNegativeInManyFiles) {
+  write_file(folder_ / "compress.toml",
+             "[tissue]\npoisson_ratio = 0.4999\nviscosity = \"none\"\nbase = \"frictionless\"\n"
+             "shape = { kind = \"cuboid\", size = [\"20 mm\", \"20 mm\", \"10 mm\"] }\n"
+             "[[step]]\nkind = \"compress\"\nstrain = 0.02\nrate = \"0.01 1/s\"\n");
+  const auto identified = [&](const std::string& head, double from, double to, double shift) {
+    std::string text = head + "\n";
+    for (int i = 0; i <= 80; ++i) {
+      const double strain = from + (to - from) * i / 80.0;
+      text += number_text(strain + shift) + "," +
+              number_text(12.0 * strain + (i % 2 == 0 ? 1e-3 : -1e-3)) + "\n";
+    }
+    write_file(folder_ / "negative.csv", text);
+    return palpate(folder_.path(), {"identify", "negative.csv", "compress.toml", "--force",
+                                    "--unknown", "tissue.young_modulus=1..100 kPa"});
+  };
+  const std::string strain = "strain (-),stress (kPa)", stretch = "stretch,stress (kPa)";
+  for (const Ended& done :
+       {identified(strain, 0.0, -0.02, 0.0), identified(strain, -0.02, 0.0, 0.0),
+        identified("strain,stress (kPa)", -0.02, 0.0, 0.0), identified(stretch, 0.0, -0.02, 1.0),
+        identified(stretch, -0.02, 0.0, 1.0), identified(stretch, -0.02, 0.02, 1.0)}) {
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_NE(done.out.find("tissue.young_modulus  12"), std::string::npos) << done.out << done.err;
+  }
+  EXPECT_EQ(identified(stretch, 0.0, 0.02, 1.0).err,
+            "negative.csv: `stretch` is a stretch above 1, which is tension, and the scenario "
+            "compresses; fit it by `palpate fit --model ogden`\n");
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -70,6 +70,24 @@ TEST(StepOrigin, OfTimesThatAreSpacedByAFactor) {
   }
 }
 
+// Creep that rises out of the noise only after many rows, at times since its step: the strain at
+// once is no level before it.
+TEST(StepOrigin, OfACreepWhoseTimesAreSpacedByAFactor) {
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 0.02);
+    Rows rows;
+    for (int i = 0; i < 120; ++i) {
+      const double t = std::pow(10.0, -1.0 + 3.7 * i / 119.0);
+      rows.x.push_back(t);
+      rows.y.push_back(2.0 + 1.1 * (1.0 - std::exp(-t / 2.0)) + 1.7 * (1.0 - std::exp(-t / 60.0)) +
+                       noise(random));
+    }
+    const StepOrigin found = step_origin(rows.x, rows.y, AfterStep::rises, 0.0);
+    EXPECT_TRUE(found.best.time == 0.0 && !found.after_level) << seed << ": " << found.best.time;
+  }
+}
+
 TEST(StepOrigin, ACreepThatBeganBeforeTheRecordIsRefused) {
   std::vector<double> x, y;
   for (int i = 0; i < 50; ++i) {
@@ -113,6 +131,35 @@ TEST(StepOrigin, OfARampIsItsBeginning) {
   const Rows noisy = rows_with(0.1);
   const Loading ramp = step_origin(noisy.x, noisy.y, AfterStep::relaxes, std::nullopt).best;
   EXPECT_NEAR(ramp.time + ramp.ramp, 5.0, 0.21);
+}
+
+// Three steps of strain, and the relaxation after each, are no ramp; a slow rise with noise is one.
+TEST(StepOrigin, SeveralStepsAreNoRamp) {
+  const auto rows_with = [](double relaxes, double scatter) {
+    std::mt19937 random(4);
+    std::normal_distribution<double> noise(0.0, scatter);
+    Rows rows;
+    for (int i = 0; i < 600; ++i) {
+      const double t = 0.5 * i;
+      double y = noise(random);
+      for (const double step : {5.25, 100.25, 200.25})
+        if (t > step) y += 2.0 + relaxes * std::exp(-(t - step) / 14.0);
+      rows.x.push_back(t);
+      rows.y.push_back(y);
+    }
+    return rows;
+  };
+  for (const double sign : {1.0, -1.0}) {
+    Rows steps = rows_with(1.5, 0.02);
+    for (double& each : steps.y) each *= sign;
+    EXPECT_EQ(test::refusal(
+                  [&] { return step_origin(steps.x, steps.y, AfterStep::relaxes, std::nullopt); }),
+              "the load falls by over 10 % from 5.5 on, and is largest at 200.5, so that it has "
+              "several steps or cycles; choose the rows of one by `--rows`, or give the measured "
+              "loading by `--history`");
+  }
+  const Rows stairs = rows_with(0.0, 0.3);  // 10 % of a step are noise
+  EXPECT_NO_THROW((void)step_origin(stairs.x, stairs.y, AfterStep::relaxes, std::nullopt));
 }
 
 // One row on the ramp is enough, and none is a step.
@@ -200,6 +247,9 @@ TEST(StepOrigin, WhatIsNoRamp) {
   EXPECT_EQ(ramp_of({0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 4.9}), 0.0);
   EXPECT_EQ(ramp_of({0.9, 0.95, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 0.0);
   EXPECT_GT(ramp_of({0.0, 0.5, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 1.5);
+  // Its first row is at most four fifths of its end.
+  EXPECT_GT(ramp_of({0.79, 0.9, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 1.5);
+  EXPECT_EQ(ramp_of({0.81, 0.9, 1.0, 0.8, 0.7, 0.65, 0.6, 0.58, 0.57, 0.56}), 0.0);
 }
 
 // What begins within a row's distance of the clock's zero begins there.
@@ -336,6 +386,18 @@ TEST(LoadingPart, BranchesTurnWhereTheStrainDoes) {
   EXPECT_EQ(branches[1].to, 201U);
 }
 
+// In many rows noise alone falls by ten deviations, before the load rises at all.
+TEST(LoadingPart, NoiseOfManyRowsIsNoFall) {
+  std::mt19937 random(6);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  std::vector<double> y;
+  for (int i = 0; i < 400'000; ++i)
+    y.push_back(noise(random) + std::max(0.0, 0.4 * (i - 200'000) / 2e5));
+  EXPECT_EQ(rows_before_fall(y, 0.1), y.size());
+  for (int i = 0; i < 10; ++i) y.push_back(0.2);
+  EXPECT_NEAR(static_cast<double>(rows_before_fall(y, 0.1)), 4e5, 2e4);
+}
+
 TEST(LoadingPart, SeveralLoadingsAskForOne) {
   Rows rows;
   for (int cycle = 1; cycle <= 3; ++cycle)
@@ -347,6 +409,8 @@ TEST(LoadingPart, SeveralLoadingsAskForOne) {
   EXPECT_TRUE(test::refusal([&] {
                 return fit_uniaxial(rows.x, rows.y, {});
               }).starts_with("the curve has 3 loadings, up to strains of 0.1, 0.1, 0.1"));
+  EXPECT_EQ(test::refusal([&] { return fit_uniaxial(rows.x, rows.y, {.cycle = 4}); }),
+            "the curve has 3 loadings, and `--cycle 4` is not among them; give one of 1 to 3");
   const Fit second = fit_uniaxial(rows.x, rows.y, {.cycle = 2});
   EXPECT_NEAR(second.parameters[0].estimate, 2.0, 1e-9);  // kPa, exact data
 }

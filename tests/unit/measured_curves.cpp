@@ -392,9 +392,16 @@ TEST(Measured, ARetractAloneIsKeptWhole) {
   const MeasuredCurve height = read("x_mm,F_N\n-3,9\n-2,5\n-1,2\n0,-3\n1,0\n2,0\n", automatic);
   EXPECT_EQ(height.y, (Numbers{9, 5, 2, -3, 0, 0}));
   EXPECT_EQ(height.x.front(), 3e-3);
+  // A stretch tells by itself, and has no sign.
+  EXPECT_EQ(read("stretch,P_kPa\n1,0\n0.9,-3\n0.8,-7\n0.7,-14\n", automatic).x.back(), 0.7);
   // A load that saturates begins at rest, also where it gives way.
   EXPECT_EQ(read("x_mm,F_N\n0,0\n1,6\n2,8\n3,9\n4,7\n", {.segment = "retract"}).y, Numbers{7});
   EXPECT_TRUE(read("x_mm,F_N\n0,0\n1,6\n2,8\n3,9\n4,9.5\n", automatic).notes.empty());
+  // It has no approach.
+  EXPECT_EQ(
+      test::refusal([&] { return read(adhesive, {.segment = "approach"}); }),
+      "data.csv: goes one way only in `x_mm`, and its load changes most at its first rows: all "
+      "of them are the way back; leave `--segment` out, or give `--segment retract`");
   // Over time every record goes one way.
   EXPECT_EQ(read("t_s,F_N\n0,0\n1,7\n2,9\n3,5\n", {.segment = "retract"}).y, Numbers{5});
 }
