@@ -172,10 +172,6 @@ void take_model(scenario::Family& family, int workers) {
 
 // Adds the completed rows of `from` whose cases `to` has without a row. Returns how many.
 std::size_t take_over(const SweepPlan& from, const SweepPlan& to) {
-  if (to.curves && !from.curves)
-    throw InputError({from.folder, 0, 0},
-                     "keeps no curves, and the new plan does; plan without `--curves`, or without "
-                     "`--reuse`");
   const FolderLock lock(to.folder, "reuse");
   const SweepResults old(from);
   const SweepResults known(to);
@@ -207,7 +203,14 @@ Planned plan_sweep(const SweepOrder& order) {
   scenario::Family original = scenario::outline(order.scenario, order.settings);
   if (original.design.empty())
     throw InputError({order.scenario, 0, 0},
-                     "has no `sweep`; give it one, or run it by `palpate run`");
+                     "sweeps no key; name one in `[sweep]`, or run it by `palpate run`");
+  // A plan that cannot be used is told before the new one is made.
+  std::optional<SweepPlan> old;
+  if (!order.reuse.empty()) old = read_plan(order.reuse, order.program);
+  if (old && order.curves == SweepOrder::Curves::kept && !old->curves)
+    throw InputError({old->folder, 0, 0},
+                     "keeps no curves, and the new plan does; plan without `--curves`, or without "
+                     "`--reuse`");
   take_model(original, order.workers);
   Planned planned{.folder = (fs::path(order.out) / (original.name + "_sweep")).string(),
                   .cases = original.design.count(),
@@ -249,9 +252,7 @@ Planned plan_sweep(const SweepOrder& order) {
     for (const std::string& sentence : folder.put(WholeFolder::State::complete))
       throw SystemError(sentence);  // another process wrote the folder in the meantime
   }
-  if (!order.reuse.empty())
-    planned.reused =
-        take_over(read_plan(order.reuse, order.program), read_plan(planned.folder, order.program));
+  if (old) planned.reused = take_over(*old, read_plan(planned.folder, order.program));
   return planned;
 }
 
