@@ -219,8 +219,15 @@ Planned plan_sweep(const SweepOrder& order) {
   if (planned.cases > sweep_ceiling && order.ceiling == SweepOrder::Ceiling::holds)
     refuse_many(original, planned.forecast);
   WholeFolder folder(planned.folder, "plan of a sweep", Replace::incomplete);
-  const bool there = fs::exists(fs::path(planned.folder) / "plan.json");
-  if (!there) folder.refuse_what_is_there();
+  // Tasks of a cluster may plan at once, so that the plan may appear at any moment.
+  const std::string place = (fs::path(planned.folder) / "plan.json").string();
+  bool there = fs::exists(place);
+  try {
+    if (!there) folder.refuse_what_is_there();
+  } catch (const InputError&) {
+    there = fs::exists(place);
+    if (!there) throw;
+  }
   folder.open();
   const std::string scenario = "inputs/scenario.toml";  // no other input has this name
   folder.write(scenario, portable(original));
@@ -241,7 +248,7 @@ Planned plan_sweep(const SweepOrder& order) {
   const std::string text = plan_text(file);
   folder.write("plan.json", text);
   if (there) {
-    const std::string known = read_text((fs::path(planned.folder) / "plan.json").string());
+    const std::string known = read_text(place);
     if (known != text)
       throw InputError({planned.folder, 0, 0},
                        "is the plan of another sweep, with another " +
@@ -249,8 +256,11 @@ Planned plan_sweep(const SweepOrder& order) {
                            "; plans do not change: give another `--out`, or remove that folder");
     planned.there_already = true;
   } else {
-    for (const std::string& sentence : folder.put(WholeFolder::State::complete))
-      throw SystemError(sentence);  // another process wrote the folder in the meantime
+    for (const std::string& sentence : folder.put(WholeFolder::State::complete)) {
+      if (!holds(place, text)) throw SystemError(sentence);
+      fs::remove_all(folder.partial());
+      planned.there_already = true;
+    }
   }
   if (old) planned.reused = take_over(*old, read_plan(planned.folder, order.program));
   return planned;

@@ -1,6 +1,8 @@
 // A plan says which cases there are, once and for all; what it refuses, it refuses in a sentence.
 #include "sweep/plan.h"
 
+#include <sys/wait.h>
+
 #include <set>
 
 #include "base/files.h"
@@ -335,6 +337,28 @@ TEST_F(Plans, take_over_completed_rows_without_their_past) {
   EXPECT_EQ(refusal([&] { (void)plan_sweep(second); }),
             "nowhere: is no plan of a sweep; `palpate sweep plan` makes one");
   EXPECT_FALSE(fs::exists(root_ / "third")) << "what was refused has planned nothing";
+}
+
+// Each task of a cluster may plan first. All of them reach the end of their plans at about the same
+// time, because they begin together.
+TEST_F(Plans, may_be_made_by_several_processes_at_once) {
+  for (int round = 0; round < 5; ++round) {
+    SweepOrder asked = order(formulas);
+    asked.out += std::to_string(round);
+    std::vector<pid_t> children;
+    for (int i = 0; i < 6; ++i) {
+      children.push_back(::fork());
+      if (children.back() == 0)
+        ::_exit(refusal([&] { (void)plan_sweep(asked); }) == "accepted" ? 0 : 1);
+    }
+    for (const pid_t child : children) {
+      int status = 0;
+      ::waitpid(child, &status, 0);
+      EXPECT_EQ(status, 0) << round;
+    }
+    EXPECT_EQ(read_plan(asked.out + "/s_sweep", "this one").count(), 6U);
+    EXPECT_EQ(entries_of(asked.out).size(), 1U) << "nothing is left beside the plan";
+  }
 }
 
 TEST_F(Plans, what_has_changed_is_refused) {
