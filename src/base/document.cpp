@@ -399,9 +399,10 @@ Place place_of(const Node& document, const std::string& path) {
 
 std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
-  // A long value stands in the sentence only.
-  const Place origin{
-      "--set " + (assignment.size() <= 200 ? assignment : assignment.substr(0, equals)), 0, 0};
+  // A long value or key stands in the sentence only.
+  const bool is_long = assignment.size() > 200;
+  const Place origin{"--set " + (is_long ? shortened(assignment.substr(0, equals)) : assignment), 0,
+                     0};
   if (equals == std::string::npos || equals == 0)
     throw InputError(origin, "a setting is written `key=value`, as `tissue.young_modulus=60 kPa`");
   const std::string path = trimmed(std::string_view(assignment).substr(0, equals));

@@ -183,6 +183,13 @@ void HeldFile::write(const std::string& path, std::string_view content, Disk dis
     ::close(file);
     fail(path, temporary, error);
   };
+  // A file that is replaced keeps its mode and, as far as this process may give files away, its
+  // owner; chown() takes bits of the mode.
+  struct stat there {};
+  if (::stat(path.c_str(), &there) == 0) {
+    (void)!::fchown(file, there.st_uid, there.st_gid);
+    check(::fchmod(file, there.st_mode & 07777) == 0);
+  }
   while (!content.empty()) {
     const ssize_t written = ::write(file, content.data(), content.size());
     check(written >= 0 || errno == EINTR);

@@ -13,9 +13,10 @@ namespace palpate {
 // (as a pipe 256 MiB, as a device 64 MiB), and if reading fails before the end.
 [[nodiscard]] std::string read_text(const std::string& path);
 
-// Replaces a file whole, by a temporary one on the disk; makes its folder; writes into a device, a
-// pipe or a link's target. Throws SystemError (full disk, no permission), the file as it was. With
-// Disk::later the new content is only on its way to the disk, and sync_file() waits for it.
+// Replaces a file whole, by a temporary one on the disk, which gets the mode of the old one; makes
+// its folder; writes into a device, a pipe or a link's target. Throws SystemError (full disk, no
+// permission), the file as it was. With Disk::later the new content is only on its way to the disk,
+// and sync_file() waits for it.
 enum class Disk { now, later };
 void write_atomically(const std::string& path, std::string_view content, Disk disk = Disk::now);
 

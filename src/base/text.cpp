@@ -131,6 +131,14 @@ std::string one_line(std::string_view name) {
   return line;
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t most = 200;
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;  // not within a letter of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+  return std::string(text.substr(0, end)) + "...";
+}
+
 std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 std::string percent_text(double part) { return rounded_text(100.0 * part, 2) + " %"; }

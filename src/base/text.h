@@ -42,6 +42,9 @@ struct LeadingNumber {
 // A name from a file as part of a line, which its line feeds do not end.
 [[nodiscard]] std::string one_line(std::string_view name);
 
+// The first 200 bytes of a text, for a place of which the sentence names the part that is wrong.
+[[nodiscard]] std::string shortened(std::string_view text);
+
 // The text between backticks, as messages quote keys, words and options.
 [[nodiscard]] std::string ticked(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include "base/whole_folder.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -172,6 +173,9 @@ bool exchange(const std::string& one, const std::string& other) {
 std::optional<std::string> put_at(const std::string& partial, const std::string& place,
                                   const std::function<bool(const std::string& folder)>& may_go) {
   std::string old;
+  struct stat there {};
+  if (::stat(place.c_str(), &there) == 0 && S_ISDIR(there.st_mode))  // it may be private
+    (void)::chmod(partial.c_str(), there.st_mode & 07777);
   while (::rename(partial.c_str(), place.c_str()) != 0) {
     const auto refuse = [&](const std::string& from, const std::string& to) {
       throw SystemError(from + " cannot be renamed to " + to + ": " + std::strerror(errno));

@@ -127,6 +127,7 @@ void keep(const report::CsvFiles& files, const std::string& baseline, const std:
     write_atomically(fresh + "/" + file, record::csv_text(table));
   if (!baseline.empty()) write_atomically(fresh + "/" + reason, baseline);
   if (fs::exists(folder)) {
+    fs::permissions(fresh, fs::status(folder).permissions());
     for (const std::string& path : entries_of(folder))
       if (const std::string name = fs::path(path).filename();
           !name.ends_with(".csv") && name != reason)

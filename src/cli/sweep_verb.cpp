@@ -250,10 +250,23 @@ void check_with_cluster(const Sweep& command, std::size_t tasks, std::size_t cas
                              std::to_string(static_cast<long>(longest / 60.0)) + "`, in minutes");
 }
 
+// The folder as a command of a part names it: on one line.
+std::string folder_of_parts(const Sweep& command) {
+  std::string folder = std::filesystem::canonical(command.subject).string();
+  if (std::any_of(folder.begin(), folder.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte < 0x20 || byte == 0x7f;
+      }))
+    throw InputError({}, "`" + folder +
+                             "` has a control character in its name, which the commands of parts "
+                             "cannot hold; rename the folder");
+  return folder;
+}
+
 int sweep_parts(const Sweep& command, const Talk& talk) {
   const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
-  const std::string start = program_word(command) + " sweep run " +
-                            sweep::shell_word(std::filesystem::canonical(command.subject).string());
+  const std::string start =
+      program_word(command) + " sweep run " + sweep::shell_word(folder_of_parts(command));
   const sweep::SweepResults results(plan);
   const std::vector<std::size_t> parts =
       sweep::unfinished_parts(plan, results, as_index(command.of));
@@ -289,14 +302,7 @@ int sweep_slurm(const Sweep& command, const Talk& talk) {
     if (std::string_view("0123456789:-").find(c) == std::string_view::npos)
       throw InputError({}, "`--time` wants a limit as Slurm writes it, got `" + command.time +
                                "`; write `--time 01:00:00`");
-  const std::string folder = fs::canonical(command.subject).string();
-  if (std::any_of(folder.begin(), folder.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte < 0x20 || byte == 0x7f;
-      }))
-    throw InputError({}, "`" + folder +
-                             "` has a control character in its name, which a job file "
-                             "cannot hold; rename the folder");
+  const std::string folder = folder_of_parts(command);
   const auto chunk = as_index(command.chunk);
   const sweep::SlurmJob job{.name = plan.family.name,
                             .program = program_word(command),

@@ -125,8 +125,8 @@ std::vector<std::string> health_warnings(const Health& health) {
                         " frames, " + rounded_text(100.0 * share, 2) + " %, " + what);
   };
   warn(health.without_sample(),
-       "had no new sample, so that the model stood still in them; see `samples` and `faults` of "
-       "device_health.json, and close other programs that use the device");
+       "had no new sample; `samples` and `faults` of device_health.json count why: the device is "
+       "slower than expected, sends what is no reading, or is used by another program");
   warn(health.rules.stale,
        "were stale, so that the safety rules took the force back or halted the stand; give the run "
        "a free processor and `--realtime`");

@@ -62,7 +62,9 @@ LineGauge::LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap)
   // Only a stream that no text starts is in the middle of a line.
   cut_ = settings_.poll.empty() && settings_.start.empty();
   if (!settings_.start.empty()) (void)port_.write(settings_.start);
-  greet(wire_time() + settings_.wait);
+  // The first line of a stream may be cut, so that two must come.
+  wait_ = std::max(settings_.wait, 2.5 * period);
+  greet(wire_time() + wait_);
   if (!limits_.measures_travel)
     identity_.notes.push_back(
         "the lines have no travel: forces are recorded over time, without the model; `palpate "
@@ -138,12 +140,18 @@ void LineGauge::refuse_silence() const {
   if (port_.lost()) throw LinkError(on + "the device hung up; check its cable");
   const std::string rate = std::to_string(settings_.line.baud) + " baud";
   if (first_bytes_.empty())
-    throw LinkError(on + "nothing comes within " + rounded_text(settings_.wait, 3) + " s" +
+    throw LinkError(on + "nothing comes within " + rounded_text(wait_, 3) + " s" +
                     (settings_.poll.empty() ? "" : " after `" + printable(settings_.poll) + "`") +
                     "; check the cable, `baud`, `poll` and `start` in `" + file_ + "`");
   if (garbage_share(first_bytes_) > 0.2)
     throw LinkError(on + "garbage comes, as at a wrong rate; give the gauge's own instead of " +
                     rate + " in `" + file_ + "`");
+  const bool sends_by_itself = settings_.poll.empty() && settings_.start.empty();
+  if (kept_count_ == 0 && sends_by_itself && !cut_)
+    throw LinkError(on + "one line comes within " + rounded_text(wait_, 3) +
+                    " s, whose beginning may be missing; give the gauge's own `rate`, or a longer "
+                    "`wait`, in `" +
+                    file_ + "`");
   if (kept_count_ == 0)
     throw LinkError(on + "`" + printable(first_bytes_) +
                     "` comes, which never ends as a line does; let the gauge end each reading with "

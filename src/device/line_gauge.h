@@ -71,6 +71,7 @@ class LineGauge {
   std::string path_;
   std::string file_;  // of the settings
   LineSettings settings_;
+  double wait_ = 0.0;  // s, for the first line
   LinePattern pattern_;
   std::array<double, measures> given_unit_{};  // SI, of the settings
   SerialPort port_;

@@ -32,7 +32,7 @@ const std::array<Extra, 5>& extras() {
 }
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  palpate::refuse("`--unknown " + text + "` " + why);
+  palpate::refuse("`--unknown " + shortened(text) + "` " + why);
 }
 
 struct Parts {

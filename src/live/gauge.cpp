@@ -24,10 +24,13 @@ using device::Sample;
 using device::Trip;
 
 constexpr double longest_wait = 0.1;  // s, after which a signal is noticed
+constexpr double late = 1.5;          // periods without a line: one is missing
 constexpr double told_tare = 0.1;     // of `start_force`
 constexpr double given_up = 0.5;      // of the travel asked for: a withdrawal after it ends the run
 constexpr double still = 10.0;        // s without motion in contact, which no step asks for
 constexpr double moved = 0.02;        // of the deepest travel: less is no motion
+constexpr double known = 5.0;         // readings at rest that tell their mean and noise
+constexpr double fall_time = 0.5;     // s below the force at rest, which no noise stays for
 constexpr double silent = 5.0;        // s without a press, after which what it waits for is said
 
 // Mean and standard deviation of readings; those of a long time, about the last hundred.
@@ -89,7 +92,11 @@ class GaugeLoop {
         loop_.link.sample(stepped() ? stepped_wait : std::min(longest_wait, limits_.lost_after));
     const double now = loop_.clock.now() - start_;
     const double begun = device::wire_time();
-    loop_.health.count(now, sample);
+    // The link is asked more often than a slow gauge sends, and that is no frame.
+    if (sample.arrival != Arrival::none || now - framed_ > late * limits_.period) {
+      loop_.health.count(now, sample);
+      framed_ = now;
+    }
     staleness_.step(now, sample.arrival);
     const bool silent = staleness_.state() == device::Staleness::State::lost ||
                         (stepped() && sample.arrival == Arrival::none && ++unheard_ > 2);
@@ -130,6 +137,24 @@ class GaugeLoop {
     return std::isfinite(sample.device_time) ? sample.device_time : sample.received;
   }
 
+  void rested(std::vector<Sample>& readings) {
+    for (const Sample& one : std::exchange(readings, {})) rest_.add(one.force);
+  }
+
+  // A force that falls as far as it should rise, and stays there, is no noise: the gauge's sign is
+  // turned, or its first readings were those of a press. What falls more slowly than a press is
+  // drift.
+  void fell(const Sample& sample, double fall) {
+    low_.push_back(sample);
+    const double lasts = time_of(sample) - time_of(low_.front());
+    if (lasts > planned_) return rested(low_);
+    if (low_.size() < 3 || lasts < fall_time || fall < beginning()) return;
+    ends({LiveEnd::Why::link,
+          "the force fell by " + rounded_text(1e3 * fall, 3) +
+              " mN below that at rest; turn the gauge's sign by a negative `force_scale`, or begin "
+              "with the finger out of contact"});
+  }
+
   // Without travel the time of the loading history begins with the contact: where a line through
   // F^(2/3) of the first readings is 0, as for a sphere that is pressed at a constant speed. Three
   // readings make a line; with fewer, contact began after the last reading without force.
@@ -140,9 +165,13 @@ class GaugeLoop {
     if (rest_.count == 0) rest_.add(sample.force);
     const double least = *limits_.start_force;
     const double change = sample.force - rest_.mean();
+    if (!(change < -least / 8.0)) rested(low_);
     if (!(change > least / 8.0)) {
-      for (const Sample& one : std::exchange(first_, {})) rest_.add(one.force);
-      rest_.add(sample.force);
+      rested(first_);
+      if (change < -least / 8.0 && rest_.count >= known)
+        fell(sample, -change);
+      else
+        rest_.add(sample.force);
       line_ = TouchLine();
       last_free_ = time;
       return false;
@@ -221,11 +250,13 @@ class GaugeLoop {
   double planned_;           // s, of the loading history
   bool begun_;               // the rows have begun
   double start_ = 0.0;       // s, of the clock
+  double framed_ = 0.0;      // s, since the start, of the last frame that was counted
   double first_time_ = 0.0;  // s, of the first row or of the contact
   Readings rest_;            // before the contact
   double tare_ = 0.0;        // N
   TouchLine line_;
   std::vector<Sample> first_;        // in contact, before the rows
+  std::vector<Sample> low_;          // in a row below those at rest
   std::optional<double> last_free_;  // s, of the last reading without force
   double deepest_ = 0.0;             // m, of the travel
   double rest_travel_ = 0.0;         // m, of the last motion

@@ -261,8 +261,14 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   }
   result.rows = record.contact.size();
   const double last_time = record.contact.empty() ? 0.0 : record.contact.back().time;
-  if (!link_.limits().measures_travel) {
+  const bool follows = link_.limits().measures_travel;
+  if (!follows) {
     // Without travel the model has not followed, and there is nothing to find in it.
+    double most = 0.0;
+    for (const record::MeasuredRow& row : record.measured) most = std::max(most, row.force);
+    record.answer = {};
+    record.answer.model = "Forces over time, without the model: the gauge's lines have no travel.";
+    record.answer.error = "Largest measured force: " + rounded_text(most, 3) + " N.";
     if (!log.rows_are_written())
       record.attached.emplace_back(rows_name(),
                                    record::csv_text(record::measured_force_table({record})));
@@ -292,9 +298,9 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   record.last_stable_time = last_time;
   if (const auto imbalance = model.imbalance())
     record.findings.push_back({"energy_imbalance", *imbalance});
-  run::add_findings(*scene_, record);
+  if (follows) run::add_findings(*scene_, record);
   // Half a run that a fault of the device ended says nothing of the specimen.
-  if (measures_force() && link_.limits().measures_travel && result.end.why != Why::link) {
+  if (measures_force() && follows && result.end.why != Why::link) {
     const scenario::Resolved& asked = scene_->scenario;
     result.verdict =
         judge(measured_curve(record, asked.steps, std::span(loop.free.force).first(loop.free.count),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "base/index.h"
 
@@ -254,12 +255,12 @@ class Judgement {
   }
 
   // A weak correlation has a sign too, which means nothing, and one far reading can turn it.
-  [[nodiscard]] double sign() const {
-    if (!(found_.stiffness < -0.1)) return 1.0;
+  [[nodiscard]] bool seems_turned() const {
+    if (!(found_.stiffness < -0.1)) return false;
     std::vector<double> pressed;
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (in_contact(i)) pressed.push_back(rows_.measured[i] - known_offset());
-    return median(pressed) < 0.0 ? -1.0 : 1.0;
+    return median(pressed) < 0.0;
   }
 
   // The measured force with its sign turned if need be, above `offset`.
@@ -289,8 +290,23 @@ class Judgement {
     found_.release_model = end_of_force(rows_, rows_.model, back, rows_.size());
   }
 
+  // A drift or a jump beyond the press turns the correlation as well: a turned sign is named only
+  // where it is part of what explains the difference.
   void explain() {
-    const std::vector<double> zeroed = corrected(sign(), known_offset());
+    const Verdict before = found_;
+    if (seems_turned()) {
+      sign_ = -1.0;
+      explain_with_sign();
+      if (found_.sure) return;
+    }
+    const Verdict turned = std::exchange(found_, before);
+    sign_ = 1.0;
+    explain_with_sign();
+    if (turned.explained && !found_.sure) found_ = turned;
+  }
+
+  void explain_with_sign() {
+    const std::vector<double> zeroed = corrected(sign_, known_offset());
     double most = 0.0;
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (in_contact(i)) most = std::max(most, std::abs(zeroed[i]));
@@ -301,8 +317,8 @@ class Judgement {
       found_.explained = found_.sure = true;
       return;
     }
-    if (sign() < 0.0) found_.causes.push_back(Cause::wrong_sign);
-    const std::vector<double> as_shown = corrected(sign(), 0.0);
+    if (sign_ < 0.0) found_.causes.push_back(Cause::wrong_sign);
+    const std::vector<double> as_shown = corrected(sign_, 0.0);
     if (rest(as_shown) <= found_.allowed) {
       found_.explained = found_.sure = true;
       return;
@@ -410,7 +426,7 @@ class Judgement {
     const double rate = ty / tt;
     const double left =
         rest(force, [&](std::size_t i) { return rows_.model[i] + y + rate * (rows_.time[i] - t); });
-    const double change = sign() * rate * (rows_.time.back() - rows_.time.front());
+    const double change = sign_ * rate * (rows_.time.back() - rows_.time.front());
     if (std::abs(change) <= found_.allowed) return {};  // the rest would be a tare
     return {Cause::drift, left, change, second_number * left};
   }
@@ -524,6 +540,7 @@ class Judgement {
   Rows rows_;
   std::vector<double> free_;
   double tolerance_;
+  double sign_ = 1.0;  // by which the measured force is multiplied
   Verdict found_;
 };
 

@@ -23,6 +23,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* was_not_drawn = " was not drawn in ";
 
+// What gnuplot says last, which is the reason; before it stand the script's line and warnings.
+std::string last_line(const std::string& output) {
+  const std::string said = trimmed(output);
+  return said.substr(said.rfind('\n') + 1);
+}
+
 // Why no picture was drawn, as the middle of a sentence; empty on success.
 std::string failure(const ChildResult& result, const DrawOptions& options) {
   const std::string program = "`" + options.program + "` ";
@@ -36,7 +42,7 @@ std::string failure(const ChildResult& result, const DrawOptions& options) {
     case ChildResult::End::exited: break;
   }
   if (result.code == 0) return {};
-  const std::string said = trimmed(result.output);
+  const std::string said = last_line(result.output);
   return program + "failed " +
          (said.empty() ? "with exit code " + std::to_string(result.code) : "(" + said + ")");
 }
@@ -84,7 +90,7 @@ Picture draw_picture(const Sheet& sheet, const std::string& format, const std::s
     fs::remove(from, error);
     return {false, not_drawn + why + remedy(result, script)};
   }
-  const std::string said = trimmed(result.output);
+  const std::string said = last_line(result.output);
   if (said.empty()) return {true, {}};
   return {true, picture + " in " + folder + " may not be complete; gnuplot said: " + said};
 }

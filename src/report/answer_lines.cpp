@@ -116,6 +116,7 @@ std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& rec
   if (records.empty()) return {};
   if (records.size() == 1) {
     const record::Answer& answer = records.front().answer;
+    if (answer.left_out.empty()) return {answer.model, answer.error};  // no model ran
     return {answer.model, answer.error, answer.left_out};
   }
   std::vector<std::string> lines{models(records), peaks(records)};

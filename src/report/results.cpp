@@ -289,8 +289,12 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
                        " of the pressure maps, meshes and pictures were not written; run the "
                        "scenario again");
 
+  // A gauge without travel leaves no rows of the model.
+  const bool has_rows = std::any_of(records.begin(), records.end(), [](const auto& record) {
+    return !record.contact.empty() || !record.strain.empty();
+  });
   std::vector<plot::Figure> figures;
-  if (family_->base.output.figures) {
+  if (family_->base.output.figures && has_rows) {
     plot::DrawOptions options;
     options.formats = picture_formats(family_->base.output);
     figures = family_figures(*family_, records, fits);

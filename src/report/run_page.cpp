@@ -517,6 +517,7 @@ record::Table case_table(const Records& records) {
 void add_answer(page::Page& page, const Records& records) {
   if (records.size() == 1) {
     const record::Answer& answer = records.front().answer;
+    if (answer.left_out.empty()) return page.answer({answer.model, answer.error});  // no model ran
     page.headline(peak_text(records.front()), peak_error(records.front()));
     page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
   } else if (!records.empty()) {
@@ -563,7 +564,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   for (const scenario::InputFile& input : family.inputs)
     inputs.push_back({input.name, sha256(input.content)});
   const bool live = std::any_of(records.begin(), records.end(),
-                                [](const auto& record) { return !record.measured.empty(); });
+                                [](const auto& record) { return !record.attached.empty(); });
   page.section(
       "How it was made",
       page::making({.command = "palpate run scenario.toml",

@@ -143,7 +143,7 @@ SweepColumns ColumnReader::finish() {
       done.outputs.push_back(std::move(output));
     }
   }
-  if (done.outputs.empty() && !asked_)
+  if (done.outputs.empty() && !asked_ && completed_ > 0)
     done.notes.push_back(
         "none of the usual outputs varies and has a value in every case: there is nothing to draw; "
         "give `output.force_at`, or choose a column by `--show`");

@@ -37,19 +37,6 @@ std::string set_up_key(const scenario::Family& family, std::size_t i, bool meshe
   return text;
 }
 
-// The number of different set-ups, from evenly chosen cases.
-double set_ups(const scenario::Family& family, bool meshed) {
-  constexpr std::size_t most = 2048;
-  const std::size_t count = family.design.count();
-  const std::size_t tries = std::min(count, most);
-  std::set<std::string> found;
-  for (std::size_t t = 0; t < tries; ++t)
-    found.insert(set_up_key(family, t * count / tries, meshed));
-  const auto different = static_cast<double>(found.size());
-  const auto tried = static_cast<double>(tries);
-  return different < 0.5 * tried ? different : different / tried * static_cast<double>(count);
-}
-
 class Trial {
  public:
   Trial(const scenario::Family& family, bool keeps_curves)
@@ -135,6 +122,18 @@ double most_memory() {
 }
 
 }  // namespace
+
+double set_ups(const scenario::Family& family, bool meshed) {
+  constexpr std::size_t most = 2048;
+  const std::size_t count = family.design.count();
+  const std::size_t tries = std::min(count, most);
+  std::set<std::string> found;
+  for (std::size_t t = 0; t < tries; ++t)
+    found.insert(set_up_key(family, t * count / tries, meshed));
+  const auto different = static_cast<double>(found.size());
+  const auto tried = static_cast<double>(tries);
+  return different < 0.5 * tried ? different : different / tried * static_cast<double>(count);
+}
 
 std::string SweepForecast::text() const {
   return "about " + rounded_text(seconds, 2) + " s on one worker and " +

@@ -19,6 +19,10 @@ struct SweepForecast {
   [[nodiscard]] std::string text() const;  // about 12 s on one worker and 2.4 MB
 };
 
+// The number of different set-ups that a family's cases share, from evenly chosen cases. A modulus
+// of the only tissue scales a set-up; without a mesh it depends on the tissues alone.
+[[nodiscard]] double set_ups(const scenario::Family& family, bool meshed);
+
 // Runs some neighbouring cases for up to about two seconds: once with all that cases share, and
 // once without. Nothing if a case is invalid or fails.
 [[nodiscard]] std::optional<SweepForecast> forecast(const scenario::Family& family,

@@ -172,10 +172,6 @@ void take_model(scenario::Family& family, int workers) {
 
 // Adds the completed rows of `from` whose cases `to` has without a row. Returns how many.
 std::size_t take_over(const SweepPlan& from, const SweepPlan& to) {
-  if (to.curves && !from.curves)
-    throw InputError({from.folder, 0, 0},
-                     "keeps no curves, and the new plan does; plan without `--curves`, or without "
-                     "`--reuse`");
   const FolderLock lock(to.folder, "reuse");
   const SweepResults old(from);
   const SweepResults known(to);
@@ -207,7 +203,14 @@ Planned plan_sweep(const SweepOrder& order) {
   scenario::Family original = scenario::outline(order.scenario, order.settings);
   if (original.design.empty())
     throw InputError({order.scenario, 0, 0},
-                     "has no `sweep`; give it one, or run it by `palpate run`");
+                     "sweeps no key; name one in `[sweep]`, or run it by `palpate run`");
+  // A plan that cannot be used is told before the new one is made.
+  std::optional<SweepPlan> old;
+  if (!order.reuse.empty()) old = read_plan(order.reuse, order.program);
+  if (old && order.curves == SweepOrder::Curves::kept && !old->curves)
+    throw InputError({old->folder, 0, 0},
+                     "keeps no curves, and the new plan does; plan without `--curves`, or without "
+                     "`--reuse`");
   take_model(original, order.workers);
   Planned planned{.folder = (fs::path(order.out) / (original.name + "_sweep")).string(),
                   .cases = original.design.count(),
@@ -216,8 +219,15 @@ Planned plan_sweep(const SweepOrder& order) {
   if (planned.cases > sweep_ceiling && order.ceiling == SweepOrder::Ceiling::holds)
     refuse_many(original, planned.forecast);
   WholeFolder folder(planned.folder, "plan of a sweep", Replace::incomplete);
-  const bool there = fs::exists(fs::path(planned.folder) / "plan.json");
-  if (!there) folder.refuse_what_is_there();
+  // Tasks of a cluster may plan at once, so that the plan may appear at any moment.
+  const std::string place = (fs::path(planned.folder) / "plan.json").string();
+  bool there = fs::exists(place);
+  try {
+    if (!there) folder.refuse_what_is_there();
+  } catch (const InputError&) {
+    there = fs::exists(place);
+    if (!there) throw;
+  }
   folder.open();
   const std::string scenario = "inputs/scenario.toml";  // no other input has this name
   folder.write(scenario, portable(original));
@@ -238,7 +248,7 @@ Planned plan_sweep(const SweepOrder& order) {
   const std::string text = plan_text(file);
   folder.write("plan.json", text);
   if (there) {
-    const std::string known = read_text((fs::path(planned.folder) / "plan.json").string());
+    const std::string known = read_text(place);
     if (known != text)
       throw InputError({planned.folder, 0, 0},
                        "is the plan of another sweep, with another " +
@@ -246,12 +256,13 @@ Planned plan_sweep(const SweepOrder& order) {
                            "; plans do not change: give another `--out`, or remove that folder");
     planned.there_already = true;
   } else {
-    for (const std::string& sentence : folder.put(WholeFolder::State::complete))
-      throw SystemError(sentence);  // another process wrote the folder in the meantime
+    for (const std::string& sentence : folder.put(WholeFolder::State::complete)) {
+      if (!holds(place, text)) throw SystemError(sentence);
+      fs::remove_all(folder.partial());
+      planned.there_already = true;
+    }
   }
-  if (!order.reuse.empty())
-    planned.reused =
-        take_over(read_plan(order.reuse, order.program), read_plan(planned.folder, order.program));
+  if (old) planned.reused = take_over(*old, read_plan(planned.folder, order.program));
   return planned;
 }
 

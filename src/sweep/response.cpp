@@ -112,6 +112,9 @@ std::optional<Response> response(const sweep::SweepColumns& columns,
     for (const std::size_t level : across->order)
       made.grid.values.push_back(output.values[from + level * across->stride]);
   }
+  if (std::none_of(made.grid.values.begin(), made.grid.values.end(),
+                   [](double value) { return std::isfinite(value); }))
+    return std::nullopt;
   if (along != nullptr) {
     made.along = along->column->choice;
     made.words = along->column->words;

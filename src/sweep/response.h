@@ -27,8 +27,9 @@ struct Response {
   [[nodiscard]] bool is_map() const { return along && words.empty(); }
 };
 
-// The response on a full grid; nothing if no factor with several levels is a number. Only every
-// k-th level is taken of a factor with more than 40 levels; the title then states k.
+// The response on a full grid; nothing if no factor with several levels is a number, or if none of
+// the response's cases has a value. Only every k-th level is taken of a factor with more than 40
+// levels; the title then states k.
 [[nodiscard]] std::optional<Response> response(const sweep::SweepColumns& columns,
                                                const sweep::OutputColumn& output,
                                                const std::string& title);

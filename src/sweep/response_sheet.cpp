@@ -25,6 +25,15 @@ std::string axis(const char* name, const sweep::FactorChoice& factor, double low
          "]\n" + (logarithmic(factor) ? plot::gnuplot_logarithmic(name, low, high) : "");
 }
 
+// gnuplot complains of a scale for a single value; it gets one around it.
+std::string scale_of_one(const char* name, const Response& response) {
+  const Ends range = ends(response.grid.values);
+  if (range.low < range.high) return {};
+  const double around = range.low == 0.0 ? 1.0 : 0.1 * std::abs(range.low);
+  return std::string("set ") + name + "range [" + rounded_text(range.low - around, 4) + ":" +
+         rounded_text(range.high + around, 4) + "]\n";
+}
+
 double onto(double value, bool log) { return log ? std::log(value) : value; }
 double back(double value, bool log) { return log ? std::exp(value) : value; }
 
@@ -133,7 +142,8 @@ std::string map(const Response& response) {
       axis("x", response.across, left, right) + axis("y", *response.along, low, high) +
       "set ylabel " + plot::gnuplot_quoted(factor_label(*response.along)) + "\n" +
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
-      "set cblabel " + plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
+      scale_of_one("cb", response) + "set cblabel " +
+      plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
       "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.37\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
       // Edges of SVG are crisp; in other pictures the background would shine through between cells.
@@ -188,11 +198,13 @@ std::string curve_plots(const Response& response) {
     text += plot::gnuplot_logarithmic("y", range.low / 1.15, range.high * 1.15) + "set yrange [" +
             rounded_text(range.low / 1.15, 4) + ":" + rounded_text(range.high * 1.15, 4) + "]\n";
   }
-  text += "set ylabel " + plot::gnuplot_quoted(output_label(response.output)) + "\n";
+  text += scale_of_one("y", response) + "set ylabel " +
+          plot::gnuplot_quoted(output_label(response.output)) + "\n";
   if (response.along)
     text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) + " left\n";
   std::vector<std::string> plots;
   for (const std::size_t j : chosen(count)) {
+    if (!std::isfinite(ends({&grid.values[j * width], width}).low)) continue;  // gnuplot complains
     const double share = count > 1 ? static_cast<double>(j) / static_cast<double>(count - 1) : 0.0;
     // The brightest colours are left out, being hard to see on white; words have no order.
     const std::string colour = named || !response.along

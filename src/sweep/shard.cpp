@@ -21,8 +21,9 @@ Shard parse_shard(const std::string& text) {
   const std::size_t slash = std::min(text.find('/'), text.size());
   const auto number = whole_number(text.substr(0, slash));
   const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
-  if (!number || !of || *number < 1.0 || *number > *of || std::fmod(*number, 1.0) != 0.0 ||
-      std::fmod(*of, 1.0) != 0.0)
+  constexpr double most = 1e8;  // as `--of`; a double beyond 2^64 has no whole number of its own
+  if (!number || !of || *number < 1.0 || *number > *of || *of > most ||
+      std::fmod(*number, 1.0) != 0.0 || std::fmod(*of, 1.0) != 0.0)
     throw InputError({}, "`--shard` wants a part and the number of parts, got `" + text +
                              "`; write `--shard 3/16`");
   return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};

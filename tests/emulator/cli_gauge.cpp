@@ -190,6 +190,12 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
       << live.ended.err;
   EXPECT_TRUE(has(live.ended.err, "reads them with `--x time_s --origin 0`")) << live.ended.err;
   EXPECT_FALSE(has(live.ended.err, "Peak force")) << live.ended.err;
+  const std::string page = read_file(live.folder() / "out/device_stand/report.html");
+  EXPECT_TRUE(has(page, "Forces over time, without the model"));
+  EXPECT_TRUE(has(page, "Largest measured force: 0."));
+  EXPECT_TRUE(has(page, "A live run follows its device"));
+  for (const char* of_a_model : {"no result", "Peak force", "Neglected"})
+    EXPECT_FALSE(has(page, of_a_model)) << of_a_model;
   ASSERT_GT(live.rows.size(), 40u);
   EXPECT_NEAR(live.rows.number(0, "time_s"), 0.2, 0.1);  // an eighth of 100 mN, at 2 mm/s
   const Ended identified =
@@ -233,7 +239,25 @@ TEST(GaugeRun, SaysWhatItWaitsFor) {
     ASSERT_LT(waiting, never) << ended.err;
     EXPECT_TRUE(has(ended.err.substr(waiting, never - waiting), said)) << ended.err;
     EXPECT_TRUE(has(ended.err.substr(never), said)) << ended.err;
+    EXPECT_FALSE(has(ended.err, "not drawn")) << "figures without a row\n" << ended.err;
   }
+}
+
+// Which was taken for noise: the run waited for ever, and asked for a quieter gauge.
+TEST(GaugeRun, WithoutTravelATurnedSignIsSaid) {
+  const TemporaryFolder folder;
+  const Gauge gauge{.style = "mark10", .settings = "mark10_gauge", .baud = "115200"};
+  LiveEmulator emulator(emulator_of(gauge, folder / "log.csv"));
+  const std::string settings =
+      folder.file("turned.toml", "force_scale = -1\n" +
+                                     read_file(project_file("scenarios/gauges/mark10_gauge.toml")));
+  const Ended ended =
+      palpate(folder.path(), {"run", project_file("scenarios/device_stand.toml"), "--device",
+                              "serial:" + emulator.port() + "," + settings, "--clock", "virtual",
+                              "--seconds", "10"});
+  EXPECT_EQ(ended.code, 6) << ended.err;
+  EXPECT_TRUE(has(ended.err, "the force fell by ")) << ended.err;
+  EXPECT_TRUE(has(ended.err, "a negative `force_scale`")) << ended.err;
 }
 
 // By the machine's clock, interrupted after a second and a half.

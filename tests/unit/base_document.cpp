@@ -206,6 +206,19 @@ TEST(Setting, ValuesAreTomlOrBareText) {
   EXPECT_EQ(parse_assignment(" a.b = 1").first, "a.b");
 }
 
+// The sentence has the rest.
+TEST(Setting, ALongOneIsNamedByItsBeginning) {
+  const std::string letters(5000, 'k');
+  EXPECT_EQ(parse_assignment(letters + "=1").second.place.file,
+            "--set " + letters.substr(0, 200) + "...");
+  EXPECT_EQ(parse_assignment("a=" + letters).second.place.file, "--set a");
+  const std::string wide = repeated("\u00fc", 150);  // two bytes each
+  EXPECT_EQ(parse_assignment(wide + "=1").second.place.file,
+            "--set " + wide.substr(0, 200) + "...");
+  EXPECT_EQ(parse_assignment("a" + wide + "=1").second.place.file,
+            "--set a" + wide.substr(0, 198) + "...");
+}
+
 TEST(Setting, TheNumberAfterTheLastAppends) {
   Node root = parse_toml("e = []\n[[step]]\nto = 1\n", "a.toml");
   for (const char* setting : {"step.2.kind=hold", "step.2.time=1 s", "e.1=5", "region.1.kind=slab",

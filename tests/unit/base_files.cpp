@@ -242,6 +242,24 @@ TEST_F(Files, AKillWhileAFileIsWrittenLeavesNothingBeside) {
   std::filesystem::remove_all(folder);
 }
 
+TEST_F(Files, AReplacedFileKeepsItsMode) {
+  namespace fs = std::filesystem;
+  for (const unsigned mode : {0600U, 0664U, 0755U}) {
+    write_atomically(path_, "old");
+    fs::permissions(path_, fs::perms(mode));
+    write_atomically(path_, "new");
+    EXPECT_EQ(fs::status(path_).permissions(), fs::perms(mode));
+    EXPECT_EQ(read_text(path_), "new");
+  }
+  if (::geteuid() != 0) return;  // root replaces files of others
+  ASSERT_EQ(::chown(path_.c_str(), 65534, 65534), 0);
+  write_atomically(path_, "newer");
+  struct stat there {};
+  ASSERT_EQ(::stat(path_.c_str(), &there), 0);
+  EXPECT_EQ(there.st_uid, 65534U);
+  EXPECT_EQ(there.st_mode & 07777U, 0755U);
+}
+
 TEST_F(Files, ALinkStaysAndItsFolderIsMade) {
   namespace fs = std::filesystem;
   const std::string folder = path_ + "_folder";

@@ -106,6 +106,14 @@ class WholeFolders : public testing::Test {
   std::string place_ = (root_ / "out/a").string();
 };
 
+TEST_F(WholeFolders, AReplacedOneKeepsItsMode) {
+  put({{"a.csv", "1"}});
+  fs::permissions(place_, fs::perms(0700));
+  put({{"a.csv", "2"}});
+  EXPECT_EQ(read("a.csv"), "2");
+  EXPECT_EQ(fs::status(place_).permissions(), fs::perms(0700));
+}
+
 TEST_F(WholeFolders, AResultHasAListOfItsFiles) {
   EXPECT_TRUE(put({{"b.csv", "b"}, {"inputs/a.csv", ""}}).empty());
   EXPECT_EQ(names_in_out(), Names{"a"});

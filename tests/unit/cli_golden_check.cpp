@@ -141,8 +141,10 @@ TEST_F(GoldenCheck, kept_results_are_replaced_only_where_told_and_not_by_machine
   EXPECT_EQ(machine.code, 2);
   EXPECT_TRUE(says(machine, "`CI` is set")) << machine.err;
   EXPECT_EQ(golden({"check", "mine"}).code, 3);
+  fs::permissions(folder_ / "mine/soft/expected", fs::perms(0700));
   EXPECT_EQ(golden({"add", "mine/soft/scenario.toml", "--force"}).code, 0);
   EXPECT_EQ(golden({"check", "mine"}).code, 0);
+  EXPECT_EQ(fs::status(folder_ / "mine/soft/expected").permissions(), fs::perms(0700));
 }
 
 TEST_F(GoldenCheck, a_case_that_diverged_is_not_kept) {

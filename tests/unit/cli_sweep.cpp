@@ -236,6 +236,14 @@ TEST_F(SweepVerb, PartsAreCommands) {
   EXPECT_EQ(sweep({"parts", "out/s_sweep", "--of", "3"}).out, "");
   const Ended named = sweep({"parts", "out/s_sweep", "--of", "3", "--program", "two\nlines"});
   EXPECT_EQ(named.code, 2) << named.err;
+  // A command of two lines is none for GNU parallel.
+  std::filesystem::rename(folder_ / "out/s_sweep", folder_ / "two\nlines");
+  for (const std::vector<std::string>& call :
+       {std::vector<std::string>{"parts", "two\nlines", "--of", "3"}, {"slurm", "two\nlines"}}) {
+    const Ended refused = sweep(call);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("has a control character in its name"), std::string::npos);
+  }
 }
 
 TEST_F(SweepVerb, APlanGrowsByReuse) {

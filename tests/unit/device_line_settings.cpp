@@ -185,5 +185,33 @@ TEST(LineGauge, MayTakeLongerThanItsRate) {
   EXPECT_EQ(device.polls(), 2);
 }
 
+// The first line of a stream may be cut, so that two must come, however slow the gauge is.
+TEST(LineGauge, OfOneLineASecondIsWaitedFor) {
+  const auto sending = [](const std::string& settings) {
+    const test::TemporaryFolder folder;
+    const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0)
+      throw std::runtime_error("no pseudo-terminal");
+    std::atomic<bool> over = false;
+    std::thread device([&] {
+      for (int i = 1; !over; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        if (i % 10 == 5 && ::write(master, "1.5\n", 4) != 4) return;
+      }
+    });
+    Clock clock(Clock::Kind::monotonic);
+    const std::string said = test::refusal([&] {
+      return LineGauge({::ptsname(master), folder.file("g.toml", settings)}, clock).identity();
+    });
+    over = true;
+    device.join();
+    ::close(master);
+    return said;
+  };
+  const std::string line = "pattern = \"{force}\"\nforce_unit = \"N\"\nwait = \"0.4 s\"\n";
+  EXPECT_NE(sending(line + "rate = 50\n").find("one line comes within 0.4 s"), std::string::npos);
+  EXPECT_EQ(sending(line + "rate = 2\n"), "accepted") << "2.5 of its periods are 1.25 s";
+}
+
 }  // namespace
 }  // namespace palpate::device

@@ -179,6 +179,26 @@ TEST(Verdict, NamesADriftAndAnOutlier) {
   }
 }
 
+// The press has 0.3 N. A drift beyond it turns the correlation with the model, and so does a zero
+// that jumps, as where a gauge restarts.
+TEST(Verdict, ADriftOrAJumpIsNoTurnedSign) {
+  for (unsigned seed = 1; seed <= 20; ++seed)
+    for (const double change : {-2.0, -1.0, -0.5, -0.3, 0.5, 2.0}) {
+      MeasuredCurve drifting = run_with(0.0, as_it_is, seed);
+      MeasuredCurve jumped = drifting;
+      const auto last = static_cast<double>(drifting.measured.size() - 1);
+      for (std::size_t i = 0; i < drifting.measured.size(); ++i) {
+        drifting.measured[i] += change * static_cast<double>(i) / last;
+        if (i > 40) jumped.measured[i] += change;
+      }
+      const Verdict drift = judge(drifting, tolerance);
+      EXPECT_EQ(drift.causes, std::vector<Cause>{Cause::drift}) << verdict_sentence(drift);
+      EXPECT_NEAR(drift.drift, change, 0.02) << verdict_sentence(drift);
+      const Verdict jump = judge(jumped, tolerance);
+      EXPECT_FALSE(jump.has(Cause::wrong_sign)) << change << verdict_sentence(jump);
+    }
+}
+
 // The largest of a hundred readings is three standard deviations of the noise from zero, more than
 // the two that a difference is allowed.
 TEST(Verdict, NamesAMissingSpecimenInNoise) {

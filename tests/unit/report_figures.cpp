@@ -217,6 +217,7 @@ TEST_F(Gnuplot, FailureIsAWarningAndKeepsTheOldPicture) {
   const plot::Drawing drawing = plot::draw(plot::sheet_of(broken), folder_);
   EXPECT_NE(drawing.warning.find("`gnuplot` failed ("), std::string::npos) << drawing.warning;
   EXPECT_NE(drawing.warning.find("no_such_function"), std::string::npos) << drawing.warning;
+  EXPECT_EQ(drawing.warning.find('\n'), std::string::npos) << drawing.warning;
   EXPECT_TRUE(read("figure_force_indentation.svg") == before);
   EXPECT_EQ(files_in_folder(), 3);  // data, script, picture: nothing half written
   fs::remove(folder_ + "/force_indentation.csv");

@@ -112,6 +112,8 @@ TEST(SweepColumns, TakeWhatIsAskedForThough) {
 TEST(SweepColumns, SayWhereNothingIsThereToDraw) {
   record::Table table = results();
   for (auto& row : table.rows) row[4] = std::string("missing");
+  EXPECT_TRUE(sweep_columns(choice(), table).notes.empty()) << "no other column would have a value";
+  table.rows[0][4] = std::string("completed");
   const SweepColumns columns = sweep_columns(choice(), table);
   EXPECT_TRUE(columns.outputs.empty());
   ASSERT_EQ(columns.notes.size(), 1u);

@@ -1,10 +1,13 @@
 // A plan says which cases there are, once and for all; what it refuses, it refuses in a sentence.
 #include "sweep/plan.h"
 
+#include <sys/wait.h>
+
 #include <set>
 
 #include "base/files.h"
 #include "base/text.h"
+#include "sweep/forecast.h"
 #include "sweep/row.h"
 #include "sweep_folder.h"
 
@@ -173,8 +176,42 @@ TEST_F(Plans, the_time_of_a_mesh_that_does_not_change_the_force_is_estimated) {
   EXPECT_TRUE(said.ends_with(" s on one worker and 0.0048 MB")) << said;
 }
 
+// By hand: what has a set-up of its own, on a mesh and without one.
+TEST_F(Plans, set_ups_are_counted) {
+  const auto count = [&](const std::string& text, bool meshed) {
+    return set_ups(scenario::outline(order(text).scenario, {}), meshed);
+  };
+  const std::string modulus = "\"tissue.young_modulus\" = [\"1 kPa\", \"2 kPa\", \"3 kPa\"]\n";
+  const std::string ratio = "\"tissue.poisson_ratio\" = [0.3, 0.4]\n";
+  const std::string radius = "\"finger.radius\" = [\"8 mm\", \"9 mm\", \"10 mm\", \"11 mm\"]\n";
+  const std::string all = press + "[sweep]\n" + modulus + ratio + radius;
+  EXPECT_EQ(count(press + "[sweep]\n" + modulus, true), 1.0) << "a modulus scales one set-up";
+  EXPECT_EQ(count(all, true), 8.0);
+  EXPECT_EQ(count(all, false), 2.0) << "a finger needs none without a mesh";
+  const std::string lump =
+      "[tissue]\nshape = { kind = \"cuboid\", size = [\"60 mm\", \"60 mm\", \"30 mm\"] }\n"
+      "[[region]]\nkind = \"sphere\"\n[[step]]\nkind = \"indent\"\n";
+  EXPECT_EQ(count(lump + "[sweep]\n" + modulus + ratio, false), 6.0)
+      << "of two tissues one modulus scales nothing";
+  // Of more cases than are looked at: few set-ups are found, and many are reckoned.
+  const std::string many = press + "[sweep]\ndesign = \"grid\"\n";
+  const auto range = [](const char* key, const char* low, const char* high) {
+    return std::string("\"") + key + "\" = { from = " + low + ", to = " + high +
+           ", points = 100 }\n";
+  };
+  const std::string moduli = range("tissue.young_modulus", "\"1 kPa\"", "\"100 kPa\"");
+  EXPECT_EQ(count(many + moduli + range("tissue.poisson_ratio", "0.1", "0.49"), true), 100.0);
+  EXPECT_EQ(count(many + moduli + range("finger.radius", "\"8 mm\"", "\"12 mm\""), false), 1.0);
+  EXPECT_EQ(count(many + range("finger.radius", "\"8 mm\"", "\"12 mm\"") +
+                      range("tissue.poisson_ratio", "0.1", "0.49"),
+                  true),
+            10000.0);
+}
+
 TEST_F(Plans, a_scenario_without_a_sweep_is_refused) {
-  EXPECT_EQ(planning(press), "s.toml: has no `sweep`; give it one, or run it by `palpate run`");
+  for (const std::string& text : {press, press + "[sweep]\n"})
+    EXPECT_EQ(planning(text),
+              "s.toml: sweeps no key; name one in `[sweep]`, or run it by `palpate run`");
 }
 
 // Two values that are right by themselves and wrong together, far inside a large sweep.
@@ -296,6 +333,32 @@ TEST_F(Plans, take_over_completed_rows_without_their_past) {
   EXPECT_EQ(refusal([&] { (void)plan_sweep(second); }),
             "new/s_sweep: keeps no curves, and the new plan does; plan without `--curves`, or "
             "without `--reuse`");
+  second.reuse = "nowhere";
+  EXPECT_EQ(refusal([&] { (void)plan_sweep(second); }),
+            "nowhere: is no plan of a sweep; `palpate sweep plan` makes one");
+  EXPECT_FALSE(fs::exists(root_ / "third")) << "what was refused has planned nothing";
+}
+
+// Each task of a cluster may plan first. All of them reach the end of their plans at about the same
+// time, because they begin together.
+TEST_F(Plans, may_be_made_by_several_processes_at_once) {
+  for (int round = 0; round < 5; ++round) {
+    SweepOrder asked = order(formulas);
+    asked.out += std::to_string(round);
+    std::vector<pid_t> children;
+    for (int i = 0; i < 6; ++i) {
+      children.push_back(::fork());
+      if (children.back() == 0)
+        ::_exit(refusal([&] { (void)plan_sweep(asked); }) == "accepted" ? 0 : 1);
+    }
+    for (const pid_t child : children) {
+      int status = 0;
+      ::waitpid(child, &status, 0);
+      EXPECT_EQ(status, 0) << round;
+    }
+    EXPECT_EQ(read_plan(asked.out + "/s_sweep", "this one").count(), 6U);
+    EXPECT_EQ(entries_of(asked.out).size(), 1U) << "nothing is left beside the plan";
+  }
 }
 
 TEST_F(Plans, what_has_changed_is_refused) {
@@ -349,8 +412,9 @@ TEST(Shards, every_case_is_in_one) {
 }
 
 TEST(Shards, other_words_are_none) {
-  for (const char* wrong : {"", "3", "0/4", "5/4", "1/0", "-1/4", "1/4x", " 1/4", "1/4/2", "a/b",
-                            "1.5/4", "99999999999999999999/4"}) {
+  for (const char* wrong :
+       {"", "3", "0/4", "5/4", "1/0", "-1/4", "1/4x", " 1/4", "1/4/2", "a/b", "1.5/4",
+        "99999999999999999999/4", "1/100000001", "1/18446744073709551616"}) {
     try {
       (void)parse_shard(wrong);
       ADD_FAILURE() << wrong;

@@ -211,6 +211,22 @@ TEST(Response, EveryDesignIsDrawnInSilence) {
                                  force + ".csv", force + ".gp", force + ".svg"}));
 }
 
+// A part of a sweep may leave out whole curves, or all cases of the figure.
+TEST(Response, OfAPartIsDrawnInSilence) {
+  if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
+  const std::string name = "response_force_at_1_mm_N";
+  const std::vector<std::string> files{name + ".csv", name + ".gp", name + ".svg"};
+  auto part = grid();
+  std::vector<double>& values = part.outputs[0].values;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (i % 4 != 2) values[i] = none;
+  EXPECT_EQ(drawn(part), files) << "one level of the ratio";
+  values[2] = values[6] = none;
+  EXPECT_EQ(drawn(part), files) << "one case";
+  values[10] = none;
+  EXPECT_EQ(drawn(part), std::vector<std::string>()) << "no case";
+}
+
 TEST(Response, WithoutOptionsOnlyTablesAreWritten) {
   const test::TemporaryFolder place;
   WholeFolder folder((place / "drawn").string(), "sweep", Replace::incomplete);
