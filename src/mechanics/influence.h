@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/stop_scope.h"
 #include "base/vec3.h"
 #include "contact/patch.h"
 #include "mechanics/moving_part.h"
@@ -113,10 +114,12 @@ class Influence {
   }
 
   // The displacement of every degree of freedom (m) under 1 N on the degree of freedom `freedom`.
+  // Throws Stopped.
   [[nodiscard]] const integrate::Vector& column(int freedom) {
     if (known_.empty()) known_.resize(as_index(part_->freedoms()));
     integrate::Vector& known = known_[as_index(freedom)];
     if (known.size() == 0) {
+      StopScope::end_if_stopped();
       unit_.setZero(part_->freedoms());
       unit_[freedom] = 1.0;
       part_->respond(response_, unit_, known);
@@ -140,6 +143,7 @@ class Influence {
         units.emplace_back(integrate::Vector::Zero(part_->freedoms()))[freedoms[i]] = 1.0;
       }
       if (asked.empty() || (asked.size() < block_lanes && i + 1 < freedoms.size())) continue;
+      StopScope::end_if_stopped();
       std::vector<integrate::Vector> moved(asked.size());
       part_->respond(response_, units, moved);
       for (std::size_t k = 0; k < asked.size(); ++k)
