@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "geometry/body.h"
 #include "geometry/box_tree.h"
+#include "geometry/half_edges.h"
 #include "meshing/bisection.h"
 #include "meshing/cgal_library.h"
 #include "meshing/surface_remeshing.h"
@@ -83,6 +84,11 @@ class Mesher {
       body_.parts.push_back({coarse ? std::move(coarse->surface) : given, 0});
       faces_ = body_.parts.front().surface;
       numbers_.assign(faces_.triangles.size(), of_file);
+      for (geometry::SurfacePart& part : geometry::parts_of(faces_)) {
+        if (geometry::enclosed(part.surface).volume > 0.0) continue;
+        for (auto& triangle : part.surface.triangles) std::swap(triangle[1], triangle[2]);
+        cavities_.push_back(std::move(part.surface));
+      }
     }
     low_ = high_ = faces_.vertices.front();
     for (const Vec3& vertex : faces_.vertices) {
@@ -263,11 +269,10 @@ class Mesher {
 
   // The tissue at a place; none in a cavity.
   [[nodiscard]] std::optional<int> region_at(const Vec3& place) const {
+    for (const geometry::Surface& cavity : cavities_)
+      if (geometry::encloses(cavity, place)) return std::nullopt;
     int found = 0;
-    if (order_.shape)
-      found = geometry::region_at(body_, place).value_or(0);
-    else if (!geometry::encloses(body_.parts.front().surface, place))
-      return std::nullopt;
+    if (order_.shape) found = geometry::region_at(body_, place).value_or(0);
     if (order_.region_of) found = order_.region_of(found);
     for (const Inclusion& one : order_.inclusions)
       if (one.lump ? (place - one.lump->centre).norm() < one.lump->radius
@@ -307,6 +312,7 @@ class Mesher {
   const MeshOrder& order_;
   std::optional<geometry::BoxTree> tree_;
   geometry::Body body_;  // as sampled, without lumps
+  std::vector<geometry::Surface> cavities_;
   geometry::Surface faces_;
   std::vector<int> numbers_;
   std::vector<Plane> levels_;
