@@ -129,7 +129,8 @@ MOST = 1.0  # s, from SIGTERM to the end
 MOST_WORK = 0.3  # s of processor time, without that of children
 FINISHED = re.compile("--force|already|finished")
 TEMPORARY = re.compile(r"\.partial[-/]|\.palpate-part\d+$|\.part\d+$|\.old$|\.before|\.replaced$")
-TIMES = re.compile(r"_chart/|^b\.html$")  # are among what these say
+# Times are among what these say, and of a baseline whether the tree was clean, which it is not after a kill.
+TIMES = re.compile(r"_chart/|^b\.html$|/baseline\.toml$")
 # Files that say in themselves whether they are whole.
 LINES = re.compile(r"\.rows$|\.lock$|_measurements/")
 
