@@ -411,31 +411,16 @@ void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAx
                        option + "-unit " + wanted.symbol + "`");
 }
 
-// The tilt of a cantilever's baseline is light from elsewhere and bends nothing. Once the curve is
-// fitted the depth has it back, and the force loses what it adds over the bending.
-fit::Fit straight_fit(const measured::MeasuredCurve& curve, const fit::ContactTest& test) {
-  fit::Fit fit = fit::fit_contact(curve.x, curve.y, test);
-  std::vector<double> depth = curve.x, force = curve.y;
-  for (int k = 0; k < 2; ++k) {
-    if (!(curve.bending > 0.0) || fit.parameters.back().name != "tilt") break;
-    const double share = curve.bending * fit.parameters.back().estimate / unit::mm.to_si(1.0);
-    for (std::size_t i = 0; i < depth.size(); ++i) {
-      depth[i] = curve.x[i] + share * (curve.x[i] + curve.bending * curve.y[i] - curve.x[0]);
-      force[i] = curve.y[i] / (1.0 + share);
-    }
-    fit = fit::fit_contact(depth, force, test);
-    fit.notes.emplace_back("the tilt of the baseline is taken as light, which bends nothing");
-  }
-  return fit;
-}
-
 fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   check_axis(curve, curve.x_axis, unit::mm, "--x");
   check_axis(curve, curve.y_axis, unit::N, "--y");
-  const fit::ContactTest test = contact_test(command);
+  fit::ContactTest test = contact_test(command);
+  if (is_one_of(command.model, {"hertz", "layer"})) {
+    test.bending = curve.bending;
+    return fit::fit_contact(curve.x, curve.y, test);
+  }
   if (is_one_of(command.model, {"jkr", "dmt", "adhesive"}))
     return fit::fit_adhesive(curve.x, curve.y, test, adhesive_test(command));
-  if (is_one_of(command.model, {"hertz", "layer"})) return straight_fit(curve, test);
   const measured::MeasuredColumn& time = curve.beside.front();
   if (!(time.axis.dimension == unit::s.dimension))
     throw InputError({curve.file, 0, 0}, "`" + time.axis.column +

@@ -391,7 +391,21 @@ class ContactFit {
 Fit fit_contact(std::span<const double> depth, std::span<const double> force,
                 const ContactTest& test) {
   assert(depth.size() == force.size());
-  return ContactFit(depth, force, test).all();
+  Fit fit = ContactFit(depth, force, test).all();
+  if (!(test.bending > 0.0)) return fit;
+  // Once the curve is fitted the depth has back what the tilt took off it, and the force loses what
+  // it adds over the bending.
+  std::vector<double> straight_depth(depth.size()), straight_force(force.size());
+  for (int k = 0; k < 2 && fit.parameters.back().name == "tilt"; ++k) {
+    const double share = test.bending * fit.parameters.back().estimate / unit::mm.to_si(1.0);
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      straight_depth[i] = depth[i] + share * (depth[i] + test.bending * force[i] - depth[0]);
+      straight_force[i] = force[i] / (1.0 + share);
+    }
+    fit = ContactFit(straight_depth, straight_force, test).all();
+    fit.notes.emplace_back("the tilt of the baseline is taken as light, which bends nothing");
+  }
+  return fit;
 }
 
 }  // namespace palpate::fit

@@ -37,6 +37,9 @@ struct ContactTest {
   using Way = fit::Way;
   Way way = Way::approach;
   Residuals residuals = Residuals::independent;
+  // m/N, of a cantilever whose bending was taken off the depth; 0: none. The tilt of its baseline
+  // is light from elsewhere and bends nothing.
+  double bending = 0.0;
 };
 
 // Fits F = E/(1 - nu^2) f(h - h_0) + F_0 + k (h - h_min) to `depth` (m) and `force` (N) of equal

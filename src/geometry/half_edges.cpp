@@ -134,21 +134,9 @@ Neighbours::Neighbours(const Surface& surface) {
 std::vector<SurfacePart> parts_of(const Surface& surface) {
   const Joints whole = joints(surface);
   std::vector<SurfacePart> parts(whole.first_triangles.size());
-  std::vector<int> number(surface.vertices.size(), -1);
-  for (std::size_t t = 0; t < surface.triangles.size() && !whole.refused; ++t) {
-    SurfacePart& part = parts[as_index(whole.part[t])];
-    std::array<int, 3> corners = surface.triangles[t];
-    for (int& corner : corners) {
-      int& own = number[as_index(corner)];
-      if (own < 0) {
-        own = static_cast<int>(part.surface.vertices.size());
-        part.surface.vertices.push_back(surface.vertices[as_index(corner)]);
-      }
-      corner = own;
-    }
-    part.surface.triangles.push_back(corners);
-    part.triangles.push_back(static_cast<int>(t));
-  }
+  for (std::size_t t = 0; t < whole.part.size(); ++t)
+    parts[as_index(whole.part[t])].triangles.push_back(static_cast<int>(t));
+  for (SurfacePart& part : parts) part.surface = piece_of(surface, part.triangles);
   return parts;
 }
 

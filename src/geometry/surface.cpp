@@ -27,6 +27,24 @@ Vec3 twice_area(const Surface& surface, int triangle) {
   return (surface.vertices[as_index(b)] - origin).cross(surface.vertices[as_index(c)] - origin);
 }
 
+Surface piece_of(const Surface& surface, std::span<const int> triangles) {
+  Surface piece;
+  std::vector<int> number(surface.vertices.size(), -1);
+  for (const int t : triangles) {
+    std::array<int, 3> corners = surface.triangles[as_index(t)];
+    for (int& corner : corners) {
+      int& own = number[as_index(corner)];
+      if (own < 0) {
+        own = static_cast<int>(piece.vertices.size());
+        piece.vertices.push_back(surface.vertices[as_index(corner)]);
+      }
+      corner = own;
+    }
+    piece.triangles.push_back(corners);
+  }
+  return piece;
+}
+
 double area(const Surface& surface) {
   double sum = 0.0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)

@@ -26,6 +26,9 @@ struct Skin {
 // (b - a) x (c - a), m^2: the outward normal, with twice the triangle's area as length.
 [[nodiscard]] Vec3 twice_area(const Surface& surface, int triangle);
 
+// These triangles as a surface of their own, with the vertices in the order of their first use.
+[[nodiscard]] Surface piece_of(const Surface& surface, std::span<const int> triangles);
+
 [[nodiscard]] double area(const Surface& surface);  // m^2
 
 // The interior of a closed surface; volume < 0 if the triangles face inwards.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <type_traits>
 
-#include "base/stop_scope.h"
 #include "contact/hertz.h"
 #include "mechanics/monitor.h"
 #include "mechanics/skin_contacts.h"
@@ -643,7 +642,6 @@ std::optional<std::string> FromMesh::balance(Linearised& method, MemoryRule rule
   drag_load(touch, *part, drag_);
   method.begin(part->state, part->time_step, rule);
   for (int i = 0; i < most_linearisations; ++i) {
-    StopScope::end_if_stopped();
     if (!linear) influence.forget();
     if (!method.linearise(reached_, drag_)) return not_positive;
     next_ = touch;

@@ -143,7 +143,6 @@ class Influence {
         units.emplace_back(integrate::Vector::Zero(part_->freedoms()))[freedoms[i]] = 1.0;
       }
       if (asked.empty() || (asked.size() < block_lanes && i + 1 < freedoms.size())) continue;
-      StopScope::end_if_stopped();
       std::vector<integrate::Vector> moved(asked.size());
       part_->respond(response_, units, moved);
       for (std::size_t k = 0; k < asked.size(); ++k)

@@ -400,7 +400,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
   for (const geometry::Surface& part : parts) volumes.push_back(geometry::enclosed(part).volume);
   geometry::Surface taken;
   add_part(taken, parts[as_index(own - 1)], volumes[as_index(own - 1)] < 0.0);
-  int specks = 0;
+  int specks = 0, hollows = 0;
   std::string others, cavities;
   for (int i = 1; i <= count; ++i) {
     if (i == own) continue;
@@ -412,7 +412,10 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
     }
     // The parts go by falling volume, so that a cavity comes before what lies in it.
     const bool cavity = !wanted && geometry::encloses(taken, other.vertices.front());
-    if (cavity) add_part(taken, other, volumes[as_index(i - 1)] > 0.0);
+    if (cavity) {
+      add_part(taken, other, volumes[as_index(i - 1)] > 0.0);
+      ++hollows;
+    }
     std::string& list = cavity ? cavities : others;
     list += (list.empty() ? "" : ", ") + std::string("part ") + std::to_string(i) +
             near_text(geometry::enclosed(other).centroid) + " with " + percent_text(share) +
@@ -420,7 +423,9 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
   }
   surface = std::move(taken);
   std::string text = "part " + std::to_string(own) + " of " + std::to_string(count) + " is taken";
-  if (!cavities.empty()) text += ", with a cavity in it: " + cavities;
+  if (hollows > 0)
+    text +=
+        std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;
   if (!others.empty()) text += ", without " + others;
   if (specks > 0) text += ", and " + many(specks, "speck") + " left out";
   return text;

@@ -77,36 +77,16 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
   return touch;
 }
 
-// The triangles within some rings of a triangle's corners, as a surface of their own.
-struct Piece {
-  geometry::Surface surface;
-  int triangle = -1;
-};
-Piece piece_around(const geometry::SmoothSurface& whole, int triangle, int rings) {
-  const geometry::Surface& surface = whole.surface();
+// The triangles within some rings of a triangle's corners, ascending.
+std::vector<int> triangles_around(const geometry::SmoothSurface& whole, int triangle, int rings) {
   const std::vector<int> near =
-      whole.neighbours().rings(surface.triangles[as_index(triangle)], rings);
+      whole.neighbours().rings(whole.surface().triangles[as_index(triangle)], rings);
   std::vector<int> triangles;
   for (const int vertex : near)
     for (const int one : whole.neighbours().triangles_at(vertex)) triangles.push_back(one);
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  Piece piece;
-  std::vector<int> number(surface.vertices.size(), -1);
-  for (const int one : triangles) {
-    if (one == triangle) piece.triangle = static_cast<int>(piece.surface.triangles.size());
-    std::array<int, 3> corners = surface.triangles[as_index(one)];
-    for (int& corner : corners) {
-      int& own = number[as_index(corner)];
-      if (own < 0) {
-        own = static_cast<int>(piece.surface.vertices.size());
-        piece.surface.vertices.push_back(surface.vertices[as_index(corner)]);
-      }
-      corner = own;
-    }
-    piece.surface.triangles.push_back(corners);
-  }
-  return piece;
+  return triangles;
 }
 
 // The length of the edges at a triangle's corners, m.
@@ -126,10 +106,12 @@ geometry::CurvatureEstimate curvature_over(const geometry::SmoothSurface& whole,
                                            const geometry::SurfacePoint& at,
                                            const geometry::CurvatureOptions& options) {
   // One ring more than the fits use, so that they do not meet the rim of the piece.
-  const Piece piece = piece_around(whole, at.triangle, options.rings + 1);
-  const geometry::Neighbours neighbours(piece.surface);
-  const geometry::CurvatureStars stars(piece.surface, neighbours, options);
-  return geometry::between(stars.at_corners(piece.surface, piece.triangle),
+  const std::vector<int> triangles = triangles_around(whole, at.triangle, options.rings + 1);
+  const geometry::Surface piece = geometry::piece_of(whole.surface(), triangles);
+  const auto own = std::lower_bound(triangles.begin(), triangles.end(), at.triangle);
+  const geometry::Neighbours neighbours(piece);
+  const geometry::CurvatureStars stars(piece, neighbours, options);
+  return geometry::between(stars.at_corners(piece, static_cast<int>(own - triangles.begin())),
                            {at.weights[0], at.weights[1], at.weights[2]});
 }
 
