@@ -1,56 +1,14 @@
 // The arm's program on its sockets: handshake, one reply a message, ends as a client meets them.
-#include <utility>  // before Asio 1.74, which forgets it
-
 #include <gtest/gtest.h>
 
-#include <boost/asio.hpp>
-#include <boost/beast.hpp>
-
 #include "emulator_program.h"
+#include "web_socket.h"
 
 namespace emulator::test {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using asio::ip::tcp;
-using boost::system::error_code;
 using nlohmann::json;
-
-tcp::endpoint endpoint(int port) {
-  return {asio::ip::address_v4::loopback(), static_cast<unsigned short>(port)};
-}
-
-class Socket {
- public:
-  explicit Socket(int port) : stream_(context_) {
-    stream_.next_layer().connect(endpoint(port));
-    stream_.next_layer().set_option(tcp::no_delay(true));
-    stream_.handshake("127.0.0.1", "/");
-  }
-  void say(const std::string& text) {
-    error_code ignored;
-    stream_.write(asio::buffer(text), ignored);
-  }
-  std::string hear() {
-    beast::flat_buffer buffer;
-    stream_.read(buffer, error);
-    return beast::buffers_to_string(buffer.data());
-  }
-  void close() {
-    error_code ignored;
-    stream_.close(websocket::close_code::normal, ignored);
-  }
-  websocket::stream<tcp::socket>& stream() { return stream_; }
-
-  error_code error = {};
-
- private:
-  asio::io_context context_{};
-  websocket::stream<tcp::socket> stream_;
-};
+using Socket = palpate::test::WebSocketClient;
 
 std::string push(double z) {
   return R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":)" +
@@ -62,19 +20,11 @@ double told_force(const std::string& message) {
   return json::parse(message)["inverse3"][0]["state"]["current_cursor_force"]["z"];
 }
 
-json get(int port, const std::string& target, http::status status) {
-  asio::io_context context;
-  tcp::socket socket(context);
-  socket.connect(endpoint(port));
-  http::request<http::empty_body> request(http::verb::get, target, 11);
-  request.set(http::field::host, "127.0.0.1");
-  http::write(socket, request);
-  beast::flat_buffer buffer;
-  http::response<http::string_body> response;
-  http::read(socket, buffer, response);
-  EXPECT_EQ(response.result(), status) << target;
-  EXPECT_EQ(response[http::field::content_type], "application/json");
-  return json::parse(response.body());
+json get(int port, const std::string& target, unsigned status) {
+  const palpate::test::HttpAnswer answer = palpate::test::http_get(port, target);
+  EXPECT_EQ(answer.status, status) << target;
+  EXPECT_EQ(answer.type, "application/json");
+  return json::parse(answer.body);
 }
 
 TEST(EmulatorService, GreetsAndAnswersEachMessageOnce) {
@@ -108,15 +58,15 @@ TEST(EmulatorService, GreetsAndAnswersEachMessageOnce) {
 TEST(EmulatorService, TellsVersionAndDevicesOverHttp) {
   Program newer({"inverse3"});
   const json said = newer.line();
-  const json version = get(said["port"], "/version", http::status::ok);
+  const json version = get(said["port"], "/version", 200);
   for (const char* key : {"build_time", "git_branch", "git_describe", "git_hash", "git_tag",
                           "project_name", "project_version"})
     EXPECT_TRUE(version[key].is_string()) << key;
   EXPECT_EQ(version["project_version"], "3.5.0.0");
-  EXPECT_EQ(get(said["port"], "/devices", http::status::ok)["inverse3"][0]["device_id"], "049D");
-  EXPECT_EQ(get(said["port"], "/nothing", http::status::not_found)["ok"], false);
+  EXPECT_EQ(get(said["port"], "/devices", 200)["inverse3"][0]["device_id"], "049D");
+  EXPECT_EQ(get(said["port"], "/nothing", 404)["ok"], false);
   Program older({"inverse3", "--service", "3.1"});
-  EXPECT_EQ(get(older.line()["port"], "/3.1/version", http::status::ok)["git_tag"], "3.1.0");
+  EXPECT_EQ(get(older.line()["port"], "/3.1/version", 200)["git_tag"], "3.1.0");
 }
 
 TEST(EmulatorService, TheVirtualClockRepeatsItself) {
@@ -158,13 +108,13 @@ TEST(EmulatorService, ConnectionsEndAsTheScriptSays) {
   const TemporaryFolder folder;
   const struct {
     const char* kind;
-    error_code error;
-    websocket::close_code code;
+    const char* end;
+    int code;  // RFC 6455, section 7.4.1
   } rows[] = {
-      {"rst", asio::error::connection_reset, websocket::close_code::none},
-      {"reset", asio::error::connection_reset, websocket::close_code::none},
-      {"close_1000", websocket::error::closed, websocket::close_code::normal},
-      {"close_1011", websocket::error::closed, websocket::close_code::internal_error},
+      {"rst", "reset", 0},
+      {"reset", "reset", 0},
+      {"close_1000", "closed", 1000},
+      {"close_1011", "closed", 1011},
   };
   for (const auto& row : rows) {
     Program program({"inverse3", "--clock", "virtual", "--fault", script(folder, row.kind, "")});
@@ -177,8 +127,8 @@ TEST(EmulatorService, ConnectionsEndAsTheScriptSays) {
     }
     socket.say(push(1.0));
     EXPECT_EQ(socket.hear(), "") << row.kind;
-    EXPECT_EQ(socket.error, row.error) << row.kind;
-    EXPECT_EQ(socket.stream().reason().code, row.code) << row.kind;
+    EXPECT_EQ(socket.end(), row.end) << row.kind;
+    EXPECT_EQ(socket.close_code(), row.code) << row.kind;
     Socket again(said["port"]);
     const int next = json::parse(again.hear())["session_id"];
     EXPECT_EQ(next != session, std::string(row.kind) == "reset") << row.kind;
@@ -247,7 +197,7 @@ TEST(EmulatorService, LetsGoInSilence) {
   EXPECT_FALSE(socket.hear().empty());
   json state;  // over HTTP, which is no message of a session
   EXPECT_TRUE(seen([&] {
-    state = get(said["port"], "/devices", http::status::ok)["inverse3"][0]["state"];
+    state = get(said["port"], "/devices", 200)["inverse3"][0]["state"];
     return state["control_mode"] == "idle";
   }));
   EXPECT_EQ(state["current_cursor_force"]["z"], 0.0);

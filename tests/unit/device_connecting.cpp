@@ -1,10 +1,5 @@
 // Each way in which a service can keep us waiting while we connect ends by the deadline, with a
 // sentence of its own: a name service, a host, a listener and a web server that say nothing.
-#include <utility>  // before asio.hpp, which needs std::exchange and does not include it
-
-#include <boost/asio.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/websocket.hpp>
 
 #include <arpa/inet.h>
 #include <dlfcn.h>
@@ -26,6 +21,7 @@
 #include "device/host.h"
 #include "device/websocket.h"
 #include "refusal.h"
+#include "web_socket.h"
 
 namespace {
 
@@ -152,24 +148,18 @@ TEST(Connecting, TriesEveryAddress) {
 // A machine that is gone neither closes a connection nor answers. TCP_REPAIR lets a socket vanish
 // in the same way.
 TEST(Connected, NoticesThatTheOtherMachineIsGone) {
-  namespace net = boost::asio;
-  net::io_context context;
-  net::ip::tcp::acceptor acceptor(context, {net::ip::address_v4::loopback(), 0});
-  boost::beast::websocket::stream<net::ip::tcp::socket> server(context);
-  std::thread service([&] {
-    acceptor.accept(server.next_layer());
-    server.accept();
-  });
-  WebSocket socket(this_machine, acceptor.local_endpoint().port(), wire_time() + 5.0);
+  test::WebSocketServer server;
+  std::thread service([&] { server.take_with_handshake(); });
+  WebSocket socket(this_machine, server.port(), wire_time() + 5.0);
   service.join();
   const double quiet = wire_time() + 1.5;
   while (wire_time() < quiet)
     ASSERT_EQ(socket.receive(quiet).outcome, WebSocket::Outcome::nothing) << socket.why_closed();
   const int vanishing = 1;
-  if (::setsockopt(server.next_layer().native_handle(), IPPROTO_TCP, TCP_REPAIR, &vanishing,
+  if (::setsockopt(server.descriptor(), IPPROTO_TCP, TCP_REPAIR, &vanishing,
                    sizeof vanishing) != 0)
     GTEST_SKIP() << "only root may let a socket vanish";
-  server.next_layer().close();
+  server.leave();
   EXPECT_EQ(socket.receive(wire_time() + 10.0).outcome, WebSocket::Outcome::closed);
   EXPECT_TRUE(socket.closed());
 }
