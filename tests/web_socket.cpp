@@ -67,9 +67,7 @@ struct WebSocketServer::Ends {
   std::optional<websocket::stream<tcp::socket>> stream = {};
   error_code ignored{};
 
-  void take() {
-    acceptor.accept(stream.emplace(context).next_layer(), ignored);
-  }
+  void take() { acceptor.accept(stream.emplace(context).next_layer(), ignored); }
 };
 
 WebSocketServer::WebSocketServer() : ends_(std::make_unique<Ends>()) {}
@@ -85,7 +83,8 @@ void WebSocketServer::take_with_handshake() {
 void WebSocketServer::take_after_request() {
   ends_->take();
   std::string request;
-  asio::read_until(ends_->stream->next_layer(), asio::dynamic_buffer(request), "\r\n\r\n", ends_->ignored);
+  asio::read_until(ends_->stream->next_layer(), asio::dynamic_buffer(request), "\r\n\r\n",
+                   ends_->ignored);
 }
 
 void WebSocketServer::send_raw(std::string_view bytes) {

@@ -1,5 +1,5 @@
-// Both ends of a WebSocket on the loopback, which wait for each other. Their file alone reads Boost.Beast, which takes
-// 20 s of a compilation.
+// Both ends of a WebSocket on the loopback, which wait for each other. Their file alone reads
+// Boost.Beast, which takes 20 s of a compilation.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@ class WebSocketClient {
   void say(const std::string& text);
   std::string hear();  // empty at the end of the connection
   void close();
-  // Why nothing more is heard: 'reset' by the other side, or 'closed' by it with a code of RFC 6455.
+  // Why nothing more is heard: 'reset' by the other side, or 'closed' by it with a code of RFC
+  // 6455.
   [[nodiscard]] std::string end() const;
   [[nodiscard]] int close_code() const;  // 0: none was said
 

@@ -156,8 +156,7 @@ TEST(Connected, NoticesThatTheOtherMachineIsGone) {
   while (wire_time() < quiet)
     ASSERT_EQ(socket.receive(quiet).outcome, WebSocket::Outcome::nothing) << socket.why_closed();
   const int vanishing = 1;
-  if (::setsockopt(server.descriptor(), IPPROTO_TCP, TCP_REPAIR, &vanishing,
-                   sizeof vanishing) != 0)
+  if (::setsockopt(server.descriptor(), IPPROTO_TCP, TCP_REPAIR, &vanishing, sizeof vanishing) != 0)
     GTEST_SKIP() << "only root may let a socket vanish";
   server.leave();
   EXPECT_EQ(socket.receive(wire_time() + 10.0).outcome, WebSocket::Outcome::closed);
