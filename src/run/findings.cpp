@@ -303,7 +303,10 @@ class Findings {
       remark("the travel reached " + quantity_text(peak.travel, unit::mm) +
              ", and the factor for deep presses is known up to " +
              quantity_text(ratio->last_depth(), unit::mm) + " here: the force may be off by " +
-             percent_text(e.deep_error) + "; press less deep, or take `solver.model = \"solid\"`");
+             percent_text(e.deep_error) + "; press less deep" +
+             (e.inertia > scene_.scenario.solver.tolerance
+                  ? ""  // which `solid` does not have
+                  : ", or take `solver.model = \"solid\"`"));
     if (mesh && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent_text(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +

@@ -146,6 +146,42 @@ TEST(Explain, SaysThatTheCouplingKeepsModelsAway) {
       << ended.out;
 }
 
+// `solid` has no inertia: the remedy of a fast press is a model that has, and no other remedy takes
+// it away again.
+TEST(Explain, AdvisesAModelWithInertiaWhereWavesMatter) {
+  const TemporaryFolder folder;
+  write_file(folder / "fast.toml",
+             "schema = 1\ntitle = \"fast\"\n[[step]]\nkind = \"indent\"\nto = \"6 mm\"\nrate "
+             "= \"2 m/s\"\n");
+  const auto explained = [&](const std::vector<std::string>& settings) {
+    std::vector<std::string> words{"explain", "fast.toml", "--json"};
+    for (const std::string& setting : settings) {
+      words.emplace_back("--set");
+      words.push_back(setting);
+    }
+    const Ended ended = palpate(folder.path(), words);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return nlohmann::json::parse(ended.out);
+  };
+  const auto chosen = explained({});
+  ASSERT_EQ(chosen["model"], "solid");
+  bool waves = false;
+  for (const auto& effect : chosen["neglected"])
+    if (effect["effect"] == "waves in the tissue") {
+      waves = true;
+      EXPECT_EQ(effect["remedy"],
+                "set `solver.model = \"coupled_springs\"` and `tissue.viscosity = \"none\"`");
+    }
+  EXPECT_TRUE(waves);
+  const auto followed = explained({"solver.model=coupled_springs", "tissue.viscosity=none"});
+  EXPECT_LT(followed["error"].get<double>(), 0.5 * chosen["error"].get<double>());
+  // Beside an edge, and deep without a law for large strains, a mesh with inertia stays one.
+  for (const char* more : {"finger.x=14mm", "tissue.shape={kind=\"ellipsoid\"}"})
+    for (const auto& effect :
+         explained({"solver.model=coupled_springs", "tissue.viscosity=none", more})["neglected"])
+      EXPECT_EQ(effect["remedy"].get<std::string>().find("solid"), std::string::npos) << effect;
+}
+
 TEST(Explain, KnowsEveryTableAndKeyOfTheManual) {
   const TemporaryFolder folder;
   std::set<std::string> words;
