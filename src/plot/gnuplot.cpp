@@ -179,16 +179,16 @@ struct Legend {
     lines = labels.size() + (fits ? 1 : 0) + (figure.legend.empty() ? 0 : 1);
     if (fits) longest = std::max(longest, letters(figure.fit_label));
     longest = std::max(longest, letters(figure.legend));
-    constexpr std::size_t most_letters_beside = 18;
+    constexpr std::size_t most_letters_beside = 12;
     below = longest > most_letters_beside;
-    constexpr std::size_t letters_of_a_row = 90, sample = 8;
+    constexpr std::size_t letters_of_a_row = 64, sample = 8;
     const std::size_t columns = std::max<std::size_t>(1, letters_of_a_row / (longest + sample));
     rows = (lines + columns - 1) / columns;
     beside_bar = figure.bar.has_value();
   }
 
   [[nodiscard]] int height() const {
-    constexpr int plot = 500, line = 20;
+    constexpr int plot = 400, line = 20;
     const int text = line * static_cast<int>(lines);
     if (below) return plot + line * static_cast<int>(rows);
     return beside_bar ? plot + (lines > 0 ? 60 : 0) : std::max(plot, 120 + text);
@@ -335,8 +335,8 @@ std::string data_line(const Figure& figure, const Legend& legend, const KeptRows
   const std::string width = figure.bar ? "1.8" : "3.5";
   // What was measured is drawn as points, what was computed as a line.
   if (series.y_column.starts_with("measured_"))
-    return kept.x_of(series) + kept.y_of(series) + " with points linewidth 1.2 linecolor rgb '#" +
-           look.colour + "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
+    return kept.x_of(series) + kept.y_of(series) + " with points linewidth 1.6 linecolor rgb '#" +
+           look.colour + "' pointtype 6 pointsize 0.6 title " + gnuplot_quoted(label(series));
   if (series.dashed)
     return kept.x_of(series) + kept.y_of(series) +
            " with lines linewidth 2 dashtype (7,4) linecolor rgb '#" + look.colour + "' title " +
@@ -381,7 +381,7 @@ std::string gnuplot_script(const Figure& figure) {
     lines.push_back("NaN with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#404040' title " +
                     gnuplot_quoted(figure.fit_label));
   const std::string plot = "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
-  return gnuplot_head(figure.name, legend.height()) + frame(figure, legend) + functions(figure) +
+  return gnuplot_head(figure.name, {.height = legend.height()}) + frame(figure, legend) + functions(figure) +
          kept.text(figure) +
          gnuplot_ticks(plot, std::string(figure.x_axis == Axis::linear ? "x" : "") +
                                  (figure.y_axis != Axis::linear ? ""

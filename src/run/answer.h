@@ -42,7 +42,7 @@ struct Expected {
 // Whether the force of a press comes from a mesh that states its own error in every row.
 [[nodiscard]] bool states_mesh_error(const scene::Scene& scene);
 
-// The mesh's own error in the static force at the deepest travel of the loading history, a fraction
+// The mesh's own error in the static force at the largest displacement of the loading history, a fraction
 // of it. Nothing without a finger on a mesh with `consistent`, or where the contact has no
 // solution.
 //                                                                   docs/theory.md [sinking]

@@ -102,7 +102,7 @@ class Checker {
                                  "give a force here too, or `retract` first");
     else if (before.in_order && indent.to.value <= before.travel)
       before.in_order =
-          out_of_order(path, "`indent` goes to " + to + ", which is not below the travel of " +
+          out_of_order(path, "`indent` goes to " + to + ", which is not below the displacement of " +
                                  quantity_text(before.travel, unit::mm) +
                                  " before it; use `retract` to go back");
     else
@@ -114,7 +114,7 @@ class Checker {
     if (retract.to >= before.travel && before.in_order)
       before.in_order = out_of_order(
           path, "`retract` goes to " + quantity_text(retract.to, unit::mm) +
-                    ", which is not above the travel of " + quantity_text(before.travel, unit::mm) +
+                    ", which is not above the displacement of " + quantity_text(before.travel, unit::mm) +
                     " before it; use `indent` to go deeper");
     return {retract.to, 0.0, before.in_order};
   }

@@ -9,7 +9,7 @@ namespace {
 // A measured variant that costs `cost` us per ms: 1 s of programme, no set-up.
 Measurement measured(const std::string& name, double cost, double error) {
   Measurement one;
-  one.variant = {0, "rung x mesh", name, {"solver.model=" + name}};
+  one.variant = {0, "model x mesh", name, {"solver.model=" + name}};
   one.status = Status::measured;
   one.model = name;
   one.simulated = 1.0;

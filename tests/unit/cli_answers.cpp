@@ -232,9 +232,9 @@ TEST_F(Quickstart, is_explained_to_machines) {
   EXPECT_EQ(object["model"], "layer");
   EXPECT_NEAR(object["tolerance"].get<double>(), 0.05, 1e-12);  // rounding
   EXPECT_LT(object["error"].get<double>(), 0.05);
-  EXPECT_EQ(object["left_out"][0]["effect"], "viscosity");
-  EXPECT_GT(object["left_out"][0]["change"].get<double>(), 0.1);
-  EXPECT_EQ(object["left_out"][0]["remedy"], "add `contact.viscosity = \"tissue\"`");
+  EXPECT_EQ(object["neglected"][0]["effect"], "viscosity");
+  EXPECT_GT(object["neglected"][0]["change"].get<double>(), 0.1);
+  EXPECT_EQ(object["neglected"][0]["remedy"], "add `contact.viscosity = \"tissue\"`");
   EXPECT_GT(object["models"].size(), 3U);
   EXPECT_GT(object["criteria"].size(), 5U);
   const auto text = palpate(folder_.path(), {"explain", file_}).out;
@@ -249,9 +249,13 @@ TEST_F(Quickstart, has_its_sentences_in_the_events_of_a_run) {
   EXPECT_EQ(ended.err, "");
   const auto object = nlohmann::json::parse(split(ended.out, '\n').front());
   EXPECT_EQ(object["event"], "case");
-  EXPECT_TRUE(object["model"].get<std::string>().starts_with("Chosen: layer, "));
-  EXPECT_TRUE(object["error"].get<std::string>().starts_with("Peak force: "));
-  EXPECT_TRUE(object["left_out"].get<std::string>().starts_with("Neglected: viscosity, "));
+  EXPECT_EQ(object["model"], "layer");
+  EXPECT_LT(object["error"].get<double>(), 0.05);
+  EXPECT_NEAR(object["peak_force_N"].get<double>(), 1.17, 0.005);  // three digits are written
+  const auto& sentences = object["sentences"];
+  EXPECT_TRUE(sentences["model"].get<std::string>().starts_with("Chosen: layer, "));
+  EXPECT_TRUE(sentences["error"].get<std::string>().starts_with("Peak force: 1.17 N"));
+  EXPECT_TRUE(sentences["neglected"].get<std::string>().starts_with("Neglected: viscosity, "));
 }
 
 // A sweep is summed up in as many lines as it has kinds of answers.

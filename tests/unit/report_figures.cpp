@@ -110,7 +110,7 @@ TEST_F(Gnuplot, DrawsForceAgainstIndentation) {
   EXPECT_EQ(drawing.files, (std::vector<std::string>{"figure_force_indentation.gp",
                                                      "figure_force_indentation.svg"}));
   const std::string svg = read("figure_force_indentation.svg");
-  for (const char* text : {">skin<", ">upper_leg<", ">bone × 0.1<", ">Indentation h (mm)<",
+  for (const char* text : {">skin<", ">upper_leg<", ">bone × 0.1<", ">Indentation, the displacement (mm)<",
                            ">Force F (N)<", ">a + b ln h<"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   EXPECT_EQ(count(svg, "stroke-dasharray"), 6U);  // five fits and their line in the legend

@@ -297,7 +297,7 @@ TEST(Refusals, OneMistakeIsOneMessage) {
   EXPECT_EQ(
       refusal(press + "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = "
                       "\"retract\"\nto = \"1.5 mm\"\n"),
-      "press.toml:6:6: `indent` goes to 1 mm, which is not below the travel of 2 mm before it; "
+      "press.toml:6:6: `indent` goes to 1 mm, which is not below the displacement of 2 mm before it; "
       "use `retract` to go back");
 }
 

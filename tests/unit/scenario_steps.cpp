@@ -14,13 +14,13 @@ TEST(Steps, GoOnFromWhereTheLastOneEnded) {
             "accepted");
   EXPECT_EQ(
       refusal(step("indent", "2 mm") + step("indent", "2 mm")),
-      "press.toml:6:6: `indent` goes to 2 mm, which is not below the travel of 2 mm before it; "
+      "press.toml:6:6: `indent` goes to 2 mm, which is not below the displacement of 2 mm before it; "
       "use `retract` to go back");
   EXPECT_EQ(refusal(step("indent", "2 mm") + step("retract", "3 mm")),
-            "press.toml:6:6: `retract` goes to 3 mm, which is not above the travel of 2 mm before "
+            "press.toml:6:6: `retract` goes to 3 mm, which is not above the displacement of 2 mm before "
             "it; use `indent` to go deeper");
   EXPECT_EQ(refusal(step("retract", "0 mm")),
-            "press.toml:3:6: `retract` goes to 0 mm, which is not above the travel of 0 mm before "
+            "press.toml:3:6: `retract` goes to 0 mm, which is not above the displacement of 0 mm before "
             "it; use `indent` to go deeper");
 }
 
