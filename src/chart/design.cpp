@@ -350,9 +350,10 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
                          " cases, and `sweep` makes " + std::to_string(family.cases.size()) +
                          "; give shorter lists");
   refuse_own_keys(family);
-  refuse_forces(family,
-                "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
-                "forces at equal travels; give a displacement");
+  refuse_forces(
+      family,
+      "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
+      "forces at equal travels; give a displacement");
   return parsed(path, text, settings);
 }
 

@@ -227,18 +227,19 @@ class Speaker {
 
   [[nodiscard]] std::string at_knee() const {
     if (!verdict_.knee)
-      return "The front has no knee: " + std::string(verdict_.front.size() < 3
-                                                         ? "fewer than three configurations are on it."
-                                                         : "every step along it costs alike.");
+      return "The front has no knee: " +
+             std::string(verdict_.front.size() < 3 ? "fewer than three configurations are on it."
+                                                   : "every step along it costs alike.");
     const std::size_t knee = *verdict_.knee;
     std::string text = "The knee is " + named(knee) + ": " + how(knee) + "; ";
     for (const std::size_t i : verdict_.front)
       if (verdict_.error[i] <= 0.5 * verdict_.error[knee])
         return text + "to halve its error costs " + times(i, knee) + " as much: `" + name(i) +
                "`, " + how(i) + ".";
-    return text + (verdict_.error[knee] < 2.0 * verdict_.floor
-                       ? "the reference is not accurate enough to show that a configuration halves it."
-                       : "no configuration halves its error.");
+    return text +
+           (verdict_.error[knee] < 2.0 * verdict_.floor
+                ? "the reference is not accurate enough to show that a configuration halves it."
+                : "no configuration halves its error.");
   }
 
   // The most accurate variant that is fast enough for a haptic device.
@@ -246,7 +247,8 @@ class Speaker {
     std::optional<std::size_t> best;
     for (const std::size_t i : verdict_.front)
       if (verdict_.cost[i] <= real_time_cost) best = i;
-    if (!best) return "No configuration runs in real time: each takes more than 1000 us per ms.\n\n";
+    if (!best)
+      return "No configuration runs in real time: each takes more than 1000 us per ms.\n\n";
     return "In real time (1000 us per ms) the most accurate is " + named(*best) + ": " +
            how(*best) + ".\n\n";
   }
@@ -514,8 +516,8 @@ plot::Sheet scatter_sheet(const Scatter& scatter) {
                     " pointsize 0.9 linecolor rgb '#808080' title " +
                     plot::gnuplot_quoted(integrator.empty() ? "no mesh" : integrator));
   return {scatter.name,
-          plot::gnuplot_head(scatter.name, {.height = 520}) + frame(scatter) + guides(scatter) + "plot \\\n  " +
-              joined(lines, ", \\\n  ") + "\n",
+          plot::gnuplot_head(scatter.name, {.height = 520}) + frame(scatter) + guides(scatter) +
+              "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
           {scatter.csv_file}};
 }
 

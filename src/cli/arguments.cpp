@@ -191,7 +191,8 @@ void add_options(CLI::App& all, Golden& golden) {
     verb->callback([&golden, act] { golden.act = act; });
     return verb;
   };
-  CLI::App* verb = add("add", Golden::Act::add, "Run scenarios and store their results beside them as baseline");
+  CLI::App* verb =
+      add("add", Golden::Act::add, "Run scenarios and store their results beside them as baseline");
   verb->add_option("scenario", golden.subjects, "Scenario files")->required();
   add_jobs(*verb, golden.jobs);
   verb->add_flag("--force", golden.force, "Replace the baseline");

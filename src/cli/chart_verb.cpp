@@ -130,8 +130,8 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
                                          "knee",
                                          "auto"};
   page.section("Configurations",
-               page::table_of_file("Every configuration that was tried", page::columns_of(table, results),
-                                   "chart.csv", most));
+               page::table_of_file("Every configuration that was tried",
+                                   page::columns_of(table, results), "chart.csv", most));
   page.section("Every column",
                page::table_of_file("Settings, errors and costs", table, "chart.csv", most),
                page::Page::Shown::folded);

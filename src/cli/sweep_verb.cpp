@@ -282,8 +282,7 @@ int sweep_parts(const Sweep& command, const Talk& talk) {
     std::size_t cases = 0;
     for (std::size_t i = part - 1; i < plan.count(); i += as_index(command.of))
       if (!results.at(i).known()) ++cases;
-    Talk::Details details{
-        {"command", call}, {"part", part}, {"cases", cases}};
+    Talk::Details details{{"command", call}, {"part", part}, {"cases", cases}};
     if (cost) {
       const double share = static_cast<double>(cases) / static_cast<double>(plan.count());
       details.emplace_back("seconds", rounded(share * cost->seconds, 3));
@@ -436,10 +435,9 @@ int sweep_plan(const Sweep& command, const Talk& talk) {
   if (!command.reuse.empty())
     talk.say(planned.folder + ": " + std::to_string(planned.reused) + " of " + cases +
              " taken over from " + command.reuse);
-  Talk::Details details{
-      {"folder", planned.folder},
-      {"cases", planned.cases},
-      {"there_already", planned.there_already}};
+  Talk::Details details{{"folder", planned.folder},
+                        {"cases", planned.cases},
+                        {"there_already", planned.there_already}};
   if (planned.forecast) {
     details.emplace_back("seconds", rounded(planned.forecast->seconds, 3));
     details.emplace_back("row_bytes", rounded(planned.forecast->bytes, 3));

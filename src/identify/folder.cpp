@@ -42,7 +42,8 @@ std::string suffix_of(const Identification& found, std::size_t k) {
 
 std::string figure_words(const std::string& name) {
   if (name.starts_with("profile"))
-    return "How much worse the fit becomes if one value is fixed and the others are fitted; below the "
+    return "How much worse the fit becomes if one value is fixed and the others are fitted; below "
+           "the "
            "line the value is within the 95 % interval.";
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
@@ -65,11 +66,11 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   constexpr std::size_t most = 60;
   const record::Table table = identified_table(found);
   page.section("Estimates",
-               page::table_of_file("Estimates with 95 % intervals",
-                                   page::columns_of(table, {"unknown", "estimate", "unit",
-                                                            "ci95_low", "ci95_high", "std_error",
-                                                            "identifiable", "at_bound"}),
-                                   "identified.csv", most) +
+               page::table_of_file(
+                   "Estimates with 95 % intervals",
+                   page::columns_of(table, {"unknown", "estimate", "unit", "ci95_low", "ci95_high",
+                                            "std_error", "identifiable", "at_bound"}),
+                   "identified.csv", most) +
                    page::table_of_file("Correlation of the estimates", correlation_table(found),
                                        "correlation.csv", most));
   page.section("Every column",

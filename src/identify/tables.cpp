@@ -88,7 +88,7 @@ Interval trusted(const Identified& one) {
 
 record::Table identified_table(const Identification& found) {
   record::Table table;
-  table.columns = {"unknown",   "unit",       "estimate", "std_error",   "ci95_low",
+  table.columns = {"unknown",   "unit",       "estimate",     "std_error",   "ci95_low",
                    "ci95_high", "at_bound",   "identifiable", "profile_low", "profile_high",
                    "interval",  "moved_down", "moved_up"};
   for (const Identified& one : found.unknowns) {

@@ -37,7 +37,7 @@ figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
 figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
-  #scene-still text { font-size: 1.5em; } pre { white-space: pre-wrap; } .wide td { overflow-wrap: anywhere; } }
+  #scene-still text { font-size: 1.25em; } pre { white-space: pre-wrap; } .wide td { overflow-wrap: anywhere; } }
 .white { background: #ffffff; border-radius: .4rem; max-width: 44rem; }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
@@ -54,7 +54,7 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .answer td { white-space: nowrap; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide tr, .wide th, .wide td { display: block; } .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
@@ -184,8 +184,8 @@ Markup inline_svg(const std::string& svg, const std::string& prefix,
 
 std::string class_of(const std::string& picture) {
   const fs::path script = fs::path(picture).replace_extension(".gp");
-  const bool colours = fs::exists(script) && read_text(script.string()).find("set palette") !=
-                                                 std::string::npos;
+  const bool colours =
+      fs::exists(script) && read_text(script.string()).find("set palette") != std::string::npos;
   return colours ? "white" : "plot";
 }
 

@@ -61,7 +61,8 @@ std::string gnuplot_head(const std::string& name, const Canvas& canvas) {
          " font 'sans-serif,15' fontscale 1.5 linewidth 2 background '#ffffff'\n"
          "} else {\n"
          "  set terminal svg noenhanced size " +
-         std::to_string(canvas.width) + "," + std::to_string(canvas.height) + " font 'sans-serif,15' name " + gnuplot_quoted(name) +
+         std::to_string(canvas.width) + "," + std::to_string(canvas.height) +
+         " font 'sans-serif,15' name " + gnuplot_quoted(name) +
          " background '#ffffff'\n"
          "} }\n"
          "set encoding utf8\n"

@@ -329,7 +329,7 @@ class LeftOuts {
       return omit(
           "large strains", most,
           "which may change the force by up to " + percent_text(most) + " where it is deepest",
-          waves_matter()   ? "press less deep"
+          waves_matter()     ? "press less deep"
           : mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
                              : "set `solver.model = \"solid\"`");
     std::string remedy = "add `contact.depth = \"neo_hookean\"`";

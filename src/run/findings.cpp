@@ -478,7 +478,8 @@ class KnownFailures {
     if (scene_.scenario.contact.spread != Contact::Spread::nearest_node) return;
     double sunk = 0.0;
     for (const record::Finding& finding : record_.findings)
-      if (finding.name == "surface_displacement_mm") sunk = unit::mm.to_si(std::get<double>(finding.value));
+      if (finding.name == "surface_displacement_mm")
+        sunk = unit::mm.to_si(std::get<double>(finding.value));
     remark("all of the force is on one node, which has sunk by " + millimetres(sunk) +
            ": it would move about twice as far on a mesh of half the cells' size; write "
            "`contact.spread = \"pressure\"`");

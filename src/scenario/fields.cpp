@@ -339,7 +339,9 @@ static void fields(FieldVisitor& visitor, MeshFile& mesh) {
 }
 
 static void fields(FieldVisitor& visitor, Indent& step) {
-  visitor.either({"to", "Displacement below the undeformed surface (column `travel_mm`), or contact force, to reach."},
+  visitor.either({"to",
+                  "Displacement below the undeformed surface (column `travel_mm`), or contact "
+                  "force, to reach."},
                  step.to, unit::mm, unit::N, above(0));
   visitor.quantity({"rate", "Speed of the finger."}, step.rate, unit::mm_per_s, above(0));
 }

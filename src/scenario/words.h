@@ -55,8 +55,10 @@ inline constexpr auto curvature_surfaces = words_of<Contact::CurvatureOn>(
      {"deformed", "of the deformed tissue; the run ends if it conforms to the finger"}});
 inline constexpr auto couplings = words_of<contact::Coupling>(
     {{"one_way", "eq. (2) with the finger's displacement; the mesh does not change the force"},
-     {"series", "the finger's displacement minus the mesh's there; counts the tissue's compliance twice"},
-     {"consistent", "the finger's displacement minus the part of the mesh's that Hertz's law does not contain"},
+     {"series",
+      "the finger's displacement minus the mesh's there; counts the tissue's compliance twice"},
+     {"consistent",
+      "the finger's displacement minus the part of the mesh's that Hertz's law does not contain"},
      {"resolved", "the mesh represents the whole tissue; needs three cells per contact radius"}});
 inline constexpr Word auto_contact_viscosities{
     "auto", "`tissue` where the scenario gives `tissue.viscosity`"};

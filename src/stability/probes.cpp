@@ -77,7 +77,8 @@ void probe_inversion(Survey& survey) {
   row.reached = turns.has_value();
   if (turns) row.measured = 1e3 * *turns;
   row.theory = 1e3 * theory;
-  row.note = "the height of the flattest tetrahedron there: no displacement of a press may come near it";
+  row.note =
+      "the height of the flattest tetrahedron there: no displacement of a press may come near it";
   survey.map.failures.push_back(row);
 
   survey.go_on("false equilibrium");
@@ -325,7 +326,8 @@ void probe_tunnelling(Survey& survey, double depth) {
   row.rung = "any";
   row.setting = 1e3 * rate;
   row.setting_unit = "mm/s, the rate of loading";
-  row.measure = "rate above which a press to the largest displacement falls between two frames, mm/s";
+  row.measure =
+      "rate above which a press to the largest displacement falls between two frames, mm/s";
   const auto seen = [&](double speed) { return !slips_through(depth, speed, frame); };
   row.theory = 1e3 * 2.0 * depth / frame;
   if (const auto limit = bisect_limit(seen, 0.01 * depth / frame, 1e3 * depth / frame, 1e-4))

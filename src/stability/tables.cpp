@@ -93,12 +93,12 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
                              page::columns_of(limits, {"integrator", "model", "damping", "axis",
                                                        "value", "limit_us", "theory_us", "ratio"}),
                              "stability.csv", most));
-  page.section("Failures",
-               page::table_of_file(of_failures,
-                                   page::columns_of(failures, {"failure", "seen", "integrator",
-                                                               "setting", "setting_unit", "measured",
-                                                               "theory"}),
-                                   "failures.csv", most));
+  page.section(
+      "Failures",
+      page::table_of_file(of_failures,
+                          page::columns_of(failures, {"failure", "seen", "integrator", "setting",
+                                                      "setting_unit", "measured", "theory"}),
+                          "failures.csv", most));
   page.section("Every column",
                page::table_of_file(of_limits, limits, "stability.csv", most) +
                    page::table_of_file(of_failures, failures, "failures.csv", most),
@@ -216,7 +216,7 @@ std::string agreement(const stability::StabilityMap& map) {
   }
   return panel(map, "model", Scale::logarithmic, "Every model and damping", "limit by theory, µs") +
          "set key at screen 0.5, screen 0.975 center top vertical maxrows 1 Left reverse samplen 1 "
-         "font ',12'\n"
+         "font ',13'\n"
          "plot \\\n  " +
          joined(lines, ", \\\n  ") + "\nunset key\n";
 }
@@ -224,17 +224,19 @@ std::string agreement(const stability::StabilityMap& map) {
 std::string strip() {
   std::string text =
       "\n" + plot::gnuplot_linear("x") + plot::gnuplot_linear("y") +
-      "set key default top right horizontal Left reverse samplen 1 font ',12'\n"
-      "set lmargin at screen 0.075\nset rmargin at screen 0.93\n"
+      "set key default top right horizontal Left reverse samplen 1 font ',13'\n"
+      "set lmargin at screen 0.075\nset rmargin at screen 0.975\n"
       "set tmargin at screen 0.125\nset bmargin at screen 0.06\n"
       "set title 'Kinds of failure: one mark per setting that was tried'\n"
       "unset xlabel\nunset ylabel\nunset ytics\nset xrange [-0.5:7.5]\nset yrange [0:1]\n"
-      "set xtics rotate by -25 (";
+      "set xtics (";
   std::vector<std::string> names;
   std::string index = "NaN";
   for (int i = 1; i <= 8; ++i) {
     const std::string word = stability::failure_word(static_cast<stability::Failure>(i));
-    names.push_back("'" + word + "' " + std::to_string(i - 1));
+    // On two lines in turn, because neighbours would overlap.
+    names.push_back("\"" + std::string(i % 2 == 0 ? "\\n" : "") + word + "\" " +
+                    std::to_string(i - 1));
     index = "word eq '" + word + "' ? " + std::to_string(i - 1) + " : " + index;
   }
   // Marks of one kind are drawn side by side, shifted by their number within the kind.
@@ -256,7 +258,7 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
   std::string text = plot::gnuplot_head("stability", {.height = 1480, .tick_font = 13});
   text +=
       "set datafile missing NaN\nset xtics offset 0,0.3\nset ytics offset 0.5,0\n"
-      "set title offset 0,-0.6 font ',13'\nset xlabel offset 0,0.9 font ',12'\nunset key\n"
+      "set title offset 0,-0.6 font ',13'\nset xlabel offset 0,0.9 font ',13'\nunset key\n"
       "set multiplot layout 5,2 margins screen 0.11,0.975,0.19,0.93 spacing screen 0.13,0.055 "
       "title " +
       plot::gnuplot_quoted("Limit of the time step (µs), " + title +
@@ -270,7 +272,7 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
   of_methods("young_modulus_Pa", Scale::logarithmic, "Young's modulus", "Pa");
   text += panel(map, "poisson_ratio", Scale::linear_x, "Volume term of coupled springs",
                 "Poisson's ratio") +
-          "set key default bottom left Left reverse samplen 1 spacing 1.1 font ',11'\nset xrange "
+          "set key default bottom left Left reverse samplen 1 spacing 1.1 font ',13'\nset xrange "
           "[0:0.52]\n"
           "set xtics 0.1\n" +
           curves(map, volume_curves, "poisson_ratio", Legend::own) +

@@ -144,7 +144,7 @@ std::string map(const Response& response) {
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
       scale_of_one("cb", response) + "set cblabel " +
       plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
-      "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.37\n"
+      "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.365\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
       // Edges of SVG are crisp; in other pictures the background would shine through between cells.
       "border = format eq 'svg' ? 'noborder' : 'border linewidth 0.4'\n" +
@@ -240,10 +240,10 @@ plot::Sheet response_sheet(const Response& response) {
     const Lines lines = lines_of(response);
     if (!lines.segments.empty()) text += data_of_lines(response, lines);
     text += "set multiplot\nset lmargin at screen 0.14\nset rmargin at screen 0.79\nset title " +
-            title + "\nset tmargin at screen 0.945\nset bmargin at screen 0.545\n" + label +
+            title + "\nset tmargin at screen 0.93\nset bmargin at screen 0.565\n" + label +
             map(response) +
-            "unset title\nset tmargin at screen 0.46\nset bmargin at screen 0.095\n"
-            "set key at screen 0.805, screen 0.455 left top Left reverse font ',13' samplen 1.6 "
+            "unset title\nset tmargin at screen 0.45\nset bmargin at screen 0.1\n"
+            "set key at screen 0.805, screen 0.45 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curve_plots(response) + "unset multiplot\n";

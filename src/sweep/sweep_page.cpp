@@ -15,8 +15,8 @@ std::string range_text(const OutputColumn& output) {
   const Ends range = ends(output.values);
   const std::string label = output_label(output.name);
   const std::size_t unit = std::min(label.find(" ("), label.size());
-  std::string text =
-      label.substr(0, unit) + " " + rounded_text(range.low, 3) + " to " + rounded_text(range.high, 3);
+  std::string text = label.substr(0, unit) + " " + rounded_text(range.low, 3) + " to " +
+                     rounded_text(range.high, 3);
   if (unit < label.size()) text += " " + label.substr(unit + 2, label.size() - unit - 3);
   return text;
 }
@@ -34,9 +34,8 @@ std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivit
           (strongest == nullptr || row.indices.total.value > strongest->indices.total.value))
         strongest = &row;
     if (strongest != nullptr)
-      sentence += (sentence.empty() ? "" : ": ") +
-                  percent_text(strongest->indices.total.value) + " of the variance follows `" +
-                  strongest->factor + "`";
+      sentence += (sentence.empty() ? "" : ": ") + percent_text(strongest->indices.total.value) +
+                  " of the variance follows `" + strongest->factor + "`";
     if (!sentence.empty()) all.push_back(sentence + ".");
   }
   return all;
@@ -64,8 +63,11 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   constexpr std::size_t most = 100;
   page::Markup tables;
   if (!found.indices.empty())
-    tables += page::table_of_file("Shares of the variance", sensitivity_table(found),
-                                  "sensitivity.csv", most);
+    tables += page::table_of_file(
+        "Shares of the variance",
+        page::columns_of(sensitivity_table(found),
+                         {"output", "factor", "first_order", "total", "total_low", "total_high"}),
+        "sensitivity.csv", most);
   if (!found.correlations.empty())
     tables +=
         page::table_of_file("Rank correlations", correlation_table(found), "correlation.csv", most);

@@ -60,7 +60,7 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
             std::vector<std::string>{});
   const record::Table all = table();
   const auto status = column(all, "status");
-  const auto variant = column(all, "variant");
+  const auto variant = column(all, "configuration");
   const auto error = column(all, "greatest_error");
   auto note = column(all, "note");
   for (record::Cell& cell : note)

@@ -192,8 +192,7 @@ TEST_F(GoldenCheck, what_is_not_there_is_said) {
   EXPECT_TRUE(says(none, "mine: has no scenario with a baseline")) << none.err;
   const Ended one = golden({"check", "mine/press.toml"});
   EXPECT_EQ(one.code, 2);
-  EXPECT_TRUE(says(one, "has no baseline; write `palpate golden add mine/press.toml`"))
-      << one.err;
+  EXPECT_TRUE(says(one, "has no baseline; write `palpate golden add mine/press.toml`")) << one.err;
 }
 
 }  // namespace

@@ -61,9 +61,10 @@ TEST_F(MeshVerb, TellsTheQualityOfAReadyMesh) {
   auto box = quality({"box.node", "--unit", "m"});
   EXPECT_EQ(box["nodes"], 200);
   EXPECT_EQ(box["tetrahedra"], 734);
-  EXPECT_EQ(box["surface_triangles"], 2 * box["surface_vertices"] - 4);     // Euler, a body without holes
+  EXPECT_EQ(box["surface_triangles"],
+            2 * box["surface_vertices"] - 4);                         // Euler, a body without holes
   EXPECT_NEAR(box["volume_mm3"], 108e3, 1e-6);                        // 60 x 60 x 30; rounding
-  EXPECT_NEAR(box["surface_area_mm2"], 14.4e3, 1e-6);                    // rounding
+  EXPECT_NEAR(box["surface_area_mm2"], 14.4e3, 1e-6);                 // rounding
   EXPECT_NEAR(box["highest_z_mm"] - box["lowest_z_mm"], 30.0, 1e-9);  // rounding
   EXPECT_EQ(box["regions"], 1);
   EXPECT_EQ(box["region_0_tetrahedra"], 734);
