@@ -448,7 +448,7 @@ std::string guides(const Scatter& scatter) {
          ", graph 1 nohead dashtype (6,4) linecolor rgb '#808080'\n"
          "set label 1 'real time' at first " +
          cost +
-         ", graph 0.99 offset 0.4,0 left textcolor rgb "
+         ", graph 0.99 offset -0.4,0 right textcolor rgb "
          "'#606060' font ',12'\n"
          "set arrow 2 from graph 0, first " +
          tolerance + " to graph 1, first " + tolerance +

@@ -51,7 +51,7 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
   const auto [x, y] = axes(found.kind);
   const std::string table = "residuals" + suffix + ".csv";
   const std::string file = "'" + table + "' using 1";
-  std::string text = plot::gnuplot_head("curve" + suffix, {.height = 520}) +
+  std::string text = plot::gnuplot_head("curve" + suffix, {.height = 660, .tick_font = 12}) +
                      "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.16\nset "
                      "rmargin at screen 0.97\n";
   text += "set title " + plot::gnuplot_quoted(title + ": measured and fitted") +
@@ -65,7 +65,7 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
           ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
   const double scale = power_of_thousand(largest_residual(found));
   text +=
-      "unset title\nunset key\nset tmargin at screen 0.38\nset bmargin at screen 0.16\n"
+      "unset title\nunset key\nset tmargin at screen 0.38\nset bmargin at screen 0.13\n"
       "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
       plot::gnuplot_quoted(label("Measured - model", words.y) + power_text(scale)) +

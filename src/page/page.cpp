@@ -64,7 +64,7 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
-  .wide, pre { overflow: visible; } pre { white-space: pre-wrap; }
+  .wide, pre { overflow: visible; } .wide table { font-size: .78rem; } pre { white-space: pre-wrap; }
   details:not([open]) { display: none; } }
 )css";
 }

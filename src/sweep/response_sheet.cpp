@@ -157,7 +157,7 @@ std::string map(const Response& response) {
       ") with boxxyerror fillstyle solid 1.0 @border linecolor palette notitle"};
   if (!lines.segments.empty())
     for (const char* style :
-         {"linewidth 2.6 linecolor rgb '#90ffffff'", "linewidth 0.9 linecolor rgb '#202020'"})
+         {"linewidth 2.6 linecolor rgb '#30ffffff'", "linewidth 0.9 linecolor rgb '#202020'"})
       plots.push_back(std::string("$contours using 1:2:($3-$1):($4-$2) with vectors nohead ") +
                       style + " notitle");
   if (has_gaps(response))

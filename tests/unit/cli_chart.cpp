@@ -92,7 +92,7 @@ TEST_F(ChartVerb, ErrorsAreTheSameTwice) {
 TEST_F(ChartVerb, AHalfSpaceIsForHertzAlone) {
   const Ended ended = chart(half_space, {"--json"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("\"variant\":\"auto\""), std::string::npos);
+  EXPECT_NE(ended.out.find("\"configuration\":\"auto\""), std::string::npos);
   const auto status = column(table(), "status");
   EXPECT_EQ(std::count(status.begin(), status.end(), record::Cell("measured")), 1);
 }
