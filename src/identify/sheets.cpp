@@ -52,7 +52,7 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
   const std::string table = "residuals" + suffix + ".csv";
   const std::string file = "'" + table + "' using 1";
   std::string text = plot::gnuplot_head("curve" + suffix, {.height = 660, .tick_font = 12}) +
-                     "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.16\nset "
+                     "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.2\nset "
                      "rmargin at screen 0.97\n";
   text += "set title " + plot::gnuplot_quoted(title + ": measured and fitted") +
           "\nset tmargin at screen 0.91\nset bmargin at screen 0.42\n"
