@@ -79,6 +79,15 @@ function look(page, width, frame) {
     if (!i.hasAttribute("alt")) say(page, "has a picture without words");
     if (!i.naturalWidth) say(page, "has a picture that cannot be decoded");
   }
+  for (const s of all(".plot svg, .white svg")) {
+    const box = s.getBoundingClientRect();
+    if (!box.width || s.closest("details")) continue;
+    if (box.right > width) say(page, "has a figure that is cut at " + width + " px");
+    const sizes = [...s.querySelectorAll("text")].map(t => parseFloat(view.getComputedStyle(t).fontSize) *
+      (t.getScreenCTM() ? Math.hypot(t.getScreenCTM().a, t.getScreenCTM().b) : 0)).filter(x => x > 0);
+    if (s.closest(".plot") && sizes.length && Math.min(...sizes) < 7)
+      say(page, "has letters of " + Math.min(...sizes).toFixed(1) + " px in a figure at " + width + " px");
+  }
   all("svg").forEach(s => { if (!s.getAttribute("aria-label")) say(page, "has a figure without words"); });
   all("table").forEach(t => { if (!t.caption || !t.querySelector("th[scope]"))
     say(page, "has a table without caption or headings"); });

@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -90,6 +91,18 @@ Problem toml_problem(std::string_view text, const Place& place, std::string_view
   }
   if (says("unescaped control characters") || (says("string:") && says("end-of-file")))
     return {place, "a text is not closed on its line; end it with the quote it began with"};
+  const auto digit = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
+  if (says("expected a comment or whitespace") && at > 0 && at < text.size() && text[at] == ',' &&
+      digit(at - 1) && digit(at + 1)) {
+    const std::size_t begin = text.find_last_of(" =\t\n", at) + 1;
+    std::string number(text.substr(begin, text.find_first_of(" \t\r\n#", at) - begin));
+    const std::string given = ticked(number);
+    number[at - begin] = '.';
+    return {place_at(text, begin, place.file),
+            given + " has a decimal comma; write it with a point, as " + ticked(number)};
+  }
   if (says("expected a comment or whitespace"))
     return {place,
             "a value is followed by more on its line; put quantities in double quotes, as "

@@ -250,7 +250,12 @@ class Reader final : public FieldVisitor {
       const auto given = leading_number(text);
       if (given && given->rest.empty() && (given->out_of_range || !std::isfinite(given->value)))
         return not_finite(key, node);
-      const auto inside = whole_number(text);
+      auto inside = whole_number(text);
+      if (given && given->rest.starts_with(',')) {  // a decimal comma
+        std::string point = text;
+        std::replace(point.begin(), point.end(), ',', '.');
+        inside = whole_number(point);
+      }
       wrong_type(key, node, "a pure number", inside ? number_text(*inside) : "0.5");
       return false;
     }

@@ -155,7 +155,12 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string capitalized(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  const std::string word = text.substr(0, text.find(' '));
+  const std::size_t dot = word.find('.');
+  const bool name = word.find_first_of("_`=") != std::string::npos || word.find(',') == 1 ||
+                    (dot != std::string::npos && dot + 1 < word.size());
+  if (!text.empty() && !name)
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }
 

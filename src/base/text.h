@@ -58,7 +58,8 @@ struct LeadingNumber {
 [[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }  // ASCII
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-// With a capital first letter.
+// With a capital first letter, but for a name such as `tissue.young_modulus`, `mass_spring` or the
+// parameter of `a, logarithmic fit`.
 [[nodiscard]] std::string capitalized(std::string text);
 [[nodiscard]] std::string trimmed(std::string_view text);
 [[nodiscard]] std::string joined(std::span<const std::string> words, std::string_view separator);

@@ -77,8 +77,21 @@ Scale reduced(Scale scale) {
   return scale;
 }
 
+// The same with units that palpate does not take: `inches`, `lbf`, `cm2`.
+std::optional<Scale> foreign_scale(std::string_view text) {
+  if (const auto known = symbol_scale(text)) return known;
+  if (const UnitWord* word = unit_word(text)) return word->factor;
+  if (text.size() < 2 || (text.back() != '2' && text.back() != '3')) return std::nullopt;
+  const auto one = foreign_scale(text.substr(0, text.size() - 1));
+  if (!one) return std::nullopt;
+  Scale power;
+  multiply(power, *one, text.back() - '0');
+  return power;
+}
+
 // Parses a unit expression; empty if it is not one.
-std::optional<Scale> parse_unit(std::string_view text) {
+std::optional<Scale> parse_unit(std::string_view text,
+                                std::optional<Scale> (*scale_of)(std::string_view) = symbol_scale) {
   Scale scale;
   int sign = 1;
   bool wants_factor = true;
@@ -97,7 +110,7 @@ std::optional<Scale> parse_unit(std::string_view text) {
       ++at;
     } else {
       const std::size_t end = std::min(text.find_first_of(" */^", at), text.size());
-      const auto factor = symbol_scale(text.substr(at, end - at));
+      const auto factor = scale_of(text.substr(at, end - at));
       if (!factor) return std::nullopt;
       int power = 1;
       at = end;
@@ -272,7 +285,7 @@ std::string dimension_name(const Dimension& dimension) {
 
 bool is_quantity(std::string_view text, const Dimension& dimension) {
   const auto number = leading_number(trimmed(text));
-  const auto unit = number ? parse_unit(trimmed(number->rest)) : std::nullopt;
+  const auto unit = number ? parse_unit(trimmed(number->rest), foreign_scale) : std::nullopt;
   return unit && unit->dimension == dimension;
 }
 
@@ -293,10 +306,10 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
     const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
     if (unit_text.empty()) refuse(wanted, " with its unit" + got() + remedy);
     if (parsed) refuse(wanted, got() + ", " + dimension_name(parsed->dimension) + remedy);
-    const UnitWord* word = unit_word(unit_text);
-    if (word != nullptr && word->factor.dimension == wanted.dimension)
+    const auto foreign = parse_unit(unit_text, foreign_scale);
+    if (foreign && foreign->dimension == wanted.dimension)
       refuse(wanted, got() + " with the unknown unit `" + unit_text + "`; write it as `" +
-                         rounded_text(wanted.from_si(word->factor.to_si(number->value)), 15) + " " +
+                         rounded_text(wanted.from_si(foreign->to_si(number->value)), 15) + " " +
                          wanted.symbol + "`");
     if (unit_text.size() > 1 && unit_text[0] == ',' && std::isdigit(unit_text[1]) != 0) {
       std::string whole = digits;

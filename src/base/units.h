@@ -50,7 +50,8 @@ inline constexpr Unit N{"N", "force", 1, 1, {1, 1, -2}};
 // another dimension.
 [[nodiscard]] double parse_quantity(std::string_view text, const Unit& wanted);
 
-// Whether a text is a number with a unit of this dimension.
+// Whether a text is a number with a unit of this dimension, also one that parse_quantity() refuses
+// with the quantity in a unit that it takes, such as `3 lbf`.
 [[nodiscard]] bool is_quantity(std::string_view text, const Dimension& dimension);
 
 // The value in the unit `shown`, with digits that parse_quantity() reads back to the same double,

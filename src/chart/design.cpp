@@ -181,13 +181,13 @@ class Designer {
     if (seen_.insert(settled(settings)).second) variants_.push_back({case_, group, name, settings});
   }
 
-  void formulas(Model model) { add("rung x mesh", word_of(model), given(model)); }
+  void formulas(Model model) { add("model x mesh", word_of(model), given(model)); }
 
   void meshes(Model model) {
-    add("rung x mesh", word_of(model), rung(model));
+    add("model x mesh", word_of(model), rung(model));
     for (const double factor : mesh_factors)
       if (const std::string mesh = mesh_setting(base_, factor); !mesh.empty())
-        add("rung x mesh", word_of(model) + ", nodes x " + number_text(factor),
+        add("model x mesh", word_of(model) + ", nodes x " + number_text(factor),
             joined_to(rung(model), {mesh}));
   }
 
@@ -199,11 +199,11 @@ class Designer {
     using contact::Coupling;
     for (const Coupling coupling :
          {Coupling::one_way, Coupling::series, Coupling::consistent, Coupling::resolved})
-      add("rung x coupling", word_of(model) + ", " + word_of(coupling), coupled(coupling));
+      add("model x coupling", word_of(model) + ", " + word_of(coupling), coupled(coupling));
     const std::string mesh = graded_mesh_setting(base_, run::choose(one_).expected.contact_radius,
                                                  cells_a_contact_radius);
     if (!mesh.empty())
-      add("rung x coupling", word_of(model) + ", resolved on graded cells",
+      add("model x coupling", word_of(model) + ", resolved on graded cells",
           joined_to(coupled(Coupling::resolved), {mesh}));
   }
 
@@ -350,9 +350,10 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
                          " cases, and `sweep` makes " + std::to_string(family.cases.size()) +
                          "; give shorter lists");
   refuse_own_keys(family);
-  refuse_forces(family,
-                "a step to a force ends elsewhere in every variant, and `palpate chart` compares "
-                "forces at equal travels; give a travel");
+  refuse_forces(
+      family,
+      "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
+      "forces at equal travels; give a displacement");
   return parsed(path, text, settings);
 }
 

@@ -143,7 +143,7 @@ class Refinement {
       refuse_at(family, "tissue.mesh",
                 "a ready mesh is not refined where inertia matters; give the shape, and let "
                 "`palpate` mesh it");
-    refuse_forces(family, "a step to a force ends elsewhere on every mesh; give a travel");
+    refuse_forces(family, "a step to a force ends elsewhere on every mesh; give a displacement");
     const auto* box = std::get_if<scenario::Cuboid>(&case_.scenario.tissue.shape);
     resolved_ =
         box != nullptr && case_.scenario.regions.empty() && case_.scenario.finger.spheres == 1;
@@ -303,7 +303,7 @@ void remark(const Refinement& refinement, Reference& reference) {
       "taken along the normals of the undeformed surface, and along those of the sphere the force "
       "differs by up to " +
       percent_text(turned) +
-      " (column sphere_over_skin; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");
+      " (column sphere_over_surface; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");
 }
 
 // A press that moves.
@@ -438,7 +438,7 @@ record::Table reference_table(const std::vector<std::pair<std::string, Reference
   for (const auto& [name, reference] : cases)
     for (const ReferenceRow& row : reference.rows) levels = std::max(levels, row.forces.size());
   record::Table table{{"case", "step", "time_s", "travel_mm", "slide_mm", "contact_force_N",
-                       "error_N", "order", "sphere_over_skin"},
+                       "error_N", "order", "sphere_over_surface"},
                       {}};
   for (std::size_t i = 1; i <= levels; ++i)
     table.columns.push_back("level_" + std::to_string(i) + "_N");

@@ -54,7 +54,7 @@ struct MostRows {
 [[nodiscard]] Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most = {});
 
 // One row per moment: case, step, time_s, travel_mm, slide_mm, contact_force_N, error_N, order,
-// sphere_over_skin (1 if contact is not resolved), and the forces of the levels, level_1_N...
+// sphere_over_surface (1 if contact is not resolved), and the forces of the levels, level_1_N...
 [[nodiscard]] record::Table reference_table(
     const std::vector<std::pair<std::string, Reference>>& cases);
 

@@ -87,7 +87,7 @@ Cell clocked(double value) { return Cell(*whole_number(rounded_text(value, 4)));
 
 const std::vector<std::string> columns{"case",
                                        "group",
-                                       "variant",
+                                       "configuration",
                                        "model",
                                        "coupling",
                                        "integrator",
@@ -206,12 +206,12 @@ class Speaker {
 
   [[nodiscard]] std::string within() const {
     const std::string tolerance = percent(chart_.tolerance);
-    if (!verdict_.nearest) return "No variant could be compared with the reference.";
+    if (!verdict_.nearest) return "No configuration could be compared with the reference.";
     if (!verdict_.cheapest_within)
       return (verdict_.floor > chart_.tolerance
                   ? "The error of the reference is " + percent(verdict_.floor) +
-                        ", so that no variant can be shown to be within the tolerance of "
-                  : "No variant is within the tolerance of ") +
+                        ", so that no configuration can be shown to be within the tolerance of "
+                  : "No configuration is within the tolerance of ") +
              tolerance + "; nearest is " + named(*verdict_.nearest) + ": " +
              how(*verdict_.nearest) + ".";
     const std::size_t best = *verdict_.cheapest_within;
@@ -227,18 +227,19 @@ class Speaker {
 
   [[nodiscard]] std::string at_knee() const {
     if (!verdict_.knee)
-      return "The front has no knee: " + std::string(verdict_.front.size() < 3
-                                                         ? "fewer than three variants are on it."
-                                                         : "every step along it costs alike.");
+      return "The front has no knee: " +
+             std::string(verdict_.front.size() < 3 ? "fewer than three configurations are on it."
+                                                   : "every step along it costs alike.");
     const std::size_t knee = *verdict_.knee;
     std::string text = "The knee is " + named(knee) + ": " + how(knee) + "; ";
     for (const std::size_t i : verdict_.front)
       if (verdict_.error[i] <= 0.5 * verdict_.error[knee])
         return text + "to halve its error costs " + times(i, knee) + " as much: `" + name(i) +
                "`, " + how(i) + ".";
-    return text + (verdict_.error[knee] < 2.0 * verdict_.floor
-                       ? "the reference is not accurate enough to show that a variant halves it."
-                       : "no variant halves its error.");
+    return text +
+           (verdict_.error[knee] < 2.0 * verdict_.floor
+                ? "the reference is not accurate enough to show that a configuration halves it."
+                : "no configuration halves its error.");
   }
 
   // The most accurate variant that is fast enough for a haptic device.
@@ -246,7 +247,8 @@ class Speaker {
     std::optional<std::size_t> best;
     for (const std::size_t i : verdict_.front)
       if (verdict_.cost[i] <= real_time_cost) best = i;
-    if (!best) return "No variant runs in real time: each takes more than 1000 us per ms.\n\n";
+    if (!best)
+      return "No configuration runs in real time: each takes more than 1000 us per ms.\n\n";
     return "In real time (1000 us per ms) the most accurate is " + named(*best) + ": " +
            how(*best) + ".\n\n";
   }
@@ -287,7 +289,7 @@ class Speaker {
 
   [[nodiscard]] std::string front() const {
     std::string text =
-        "The front, from cheap to accurate:\n\n| variant | error | us per ms | set-up |\n"
+        "The front, from cheap to accurate:\n\n| configuration | error | us per ms | set-up |\n"
         "|---|---|---|---|\n";
     for (const std::size_t i : verdict_.front)
       text += "| `" + name(i) + "`" + (verdict_.knee == i ? " (knee)" : "") + " | " + error(i) +
@@ -317,7 +319,7 @@ class Speaker {
         text += "- " +
                 (names.size() <= 3 ? joined(names, ", ")
                                    : names[0] + " and " + std::to_string(names.size() - 1) +
-                                         " more variants (chart.csv)") +
+                                         " more configurations (chart.csv)") +
                 ": " + reason + "\n";
       text += "\n";
     }
@@ -433,7 +435,7 @@ std::string frame(const Scatter& scatter) {
          axis("y",
               range(100.0 * std::min({scatter.least_error, scatter.floor, scatter.tolerance}),
                     100.0 * std::max({scatter.most_error, scatter.floor, scatter.tolerance}))) +
-         "set key outside right top Left reverse samplen 1.6 spacing 1.2 width -1\n"
+         "set key below vertical maxrows 4 height 1 Left reverse samplen 1.6 spacing 1.2\n"
          "set tmargin 2.5\n";
 }
 
@@ -446,7 +448,7 @@ std::string guides(const Scatter& scatter) {
          ", graph 1 nohead dashtype (6,4) linecolor rgb '#808080'\n"
          "set label 1 'real time' at first " +
          cost +
-         ", graph 0.99 offset 0.4,0 left textcolor rgb "
+         ", graph 0.99 offset -0.4,0 right textcolor rgb "
          "'#606060' font ',12'\n"
          "set arrow 2 from graph 0, first " +
          tolerance + " to graph 1, first " + tolerance +
@@ -456,7 +458,7 @@ std::string guides(const Scatter& scatter) {
          " offset 0,0.5 left textcolor rgb '#606060' font ',12'\n"
          "set arrow 3 from graph 0, first " +
          floor + " to graph 1, first " + floor +
-         " nohead linewidth 1.5 linecolor rgb '#a0a0a0'\n"
+         " nohead linewidth 1.5 linecolor rgb '#808080'\n"
          "set label 3 'the reference''s own error' at graph 0.99, first " +
          floor + " offset 0,-0.6 right textcolor rgb '#606060' font ',12'\n";
 }
@@ -514,8 +516,8 @@ plot::Sheet scatter_sheet(const Scatter& scatter) {
                     " pointsize 0.9 linecolor rgb '#808080' title " +
                     plot::gnuplot_quoted(integrator.empty() ? "no mesh" : integrator));
   return {scatter.name,
-          plot::gnuplot_head(scatter.name, 560) + frame(scatter) + guides(scatter) + "plot \\\n  " +
-              joined(lines, ", \\\n  ") + "\n",
+          plot::gnuplot_head(scatter.name, {.height = 520}) + frame(scatter) + guides(scatter) +
+              "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
           {scatter.csv_file}};
 }
 

@@ -121,7 +121,8 @@ class Finder {
         scenario::Contact::Depth::neo_hookean)
       return " times the factor of a deep press, which `auto` applies here; its error of " +
              percent_text(found.deep_error) + " is not included";
-    return " in linear elasticity, like all variants; finite strain, which would change it by " +
+    return " in linear elasticity, like all configurations; finite strain, which would change it "
+           "by " +
            percent_text(std::abs(found.deep)) + ", is not included";
   }
 

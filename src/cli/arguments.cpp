@@ -191,17 +191,18 @@ void add_options(CLI::App& all, Golden& golden) {
     verb->callback([&golden, act] { golden.act = act; });
     return verb;
   };
-  CLI::App* verb = add("add", Golden::Act::add, "Run scenarios and keep their results beside them");
+  CLI::App* verb =
+      add("add", Golden::Act::add, "Run scenarios and store their results beside them as baseline");
   verb->add_option("scenario", golden.subjects, "Scenario files")->required();
   add_jobs(*verb, golden.jobs);
-  verb->add_flag("--force", golden.force, "Replace the kept results");
+  verb->add_flag("--force", golden.force, "Replace the baseline");
   verb->add_option("--reason", golden.reason,
-                   "Why they may change: kept beside them, with commit and compiler");
-  verb = add("check", Golden::Act::check, "Run scenarios and compare with the kept results");
+                   "Why it may change: stored with it, beside commit and compiler");
+  verb = add("check", Golden::Act::check, "Run scenarios and compare with their baselines");
   verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
   add_jobs(*verb, golden.jobs);
   add_check_options(*verb, golden.options);
-  verb = add("list", Golden::Act::list, "The scenarios whose results are kept");
+  verb = add("list", Golden::Act::list, "The scenarios that have a baseline");
   verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
 }
 
@@ -254,7 +255,7 @@ void add_options(CLI::App& verb, Chart& chart) {
       ->type_name("SCENARIO");
   add_settings(verb, chart.settings);
   add_out(verb, chart.out);
-  verb.add_option("--repeats", chart.repeats, "Timings of every variant")
+  verb.add_option("--repeats", chart.repeats, "Timings of every configuration")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   verb.add_flag("--force", chart.force, "Start again, and replace a finished or partial chart");

@@ -117,7 +117,8 @@ struct Compare {
   CheckOptions options;
 };
 struct Golden {
-  static constexpr Word word{"golden", "Keep results of scenarios, and check that they stay"};
+  static constexpr Word word{"golden",
+                             "Store results of scenarios as baselines, and check that they stay"};
   enum class Act { add, check, list };
   Act act = Act::check;
   std::vector<std::string> subjects;  // scenarios or folders

@@ -28,7 +28,7 @@ std::string identity(const scenario::Family& family) {
 std::string progress_text(const chart::ChartProgress& progress) {
   if (progress.all == 0) return progress.what;
   std::string text = bar(as_index(progress.done), as_index(progress.all));
-  if (progress.left) text += ", " + rounded_text(std::ceil(*progress.left), 2) + " s left";
+  if (progress.left) text += ", " + duration_text(*progress.left) + " left";
   return text + ", " + progress.what;
 }
 
@@ -88,36 +88,50 @@ std::vector<std::string> draw_all(const std::vector<chart::CaseChart>& charts,
   return warnings;
 }
 
+// The cheapest variant that is good enough, or the nearest one.
+void add_headline(page::Page& page, const chart::CaseChart& chart) {
+  const chart::Verdict verdict = chart::judge(chart);
+  const auto& best = verdict.cheapest_within ? verdict.cheapest_within : verdict.nearest;
+  if (!best) return;
+  page.headline(chart.rows[*best].variant.name,
+                "± " + percent_text(verdict.error[*best]) + ", " +
+                    rounded_text(verdict.cost[*best], 2) + " µs per simulated ms: " +
+                    (verdict.cheapest_within ? "the cheapest within" : "the nearest to") +
+                    " the tolerance of " + percent_text(chart.tolerance));
+}
+
 // The page of a chart. `text` is chart.md, whose sentences are the answer: what its lists and its
 // table say stands in the table of variants.
-void write_page(const scenario::Family& family, const std::string& text, const record::Table& table,
-                WholeFolder& folder) {
+void write_page(const scenario::Family& family, const std::vector<chart::CaseChart>& charts,
+                const std::string& text, const record::Table& table, WholeFolder& folder) {
   page::Page page(family.title, "chart of speed and accuracy");
   std::vector<std::string> sentences;
   const bool several = family.cases.size() > 1;
+  if (charts.size() == 1) add_headline(page, charts.front());
   for (const std::string& line : split(text, '\n'))
     if (line.starts_with("## ") && several)
       sentences.push_back(line.substr(3) + ":");
     else if (line.ends_with('.') && !line.starts_with("- "))
       sentences.push_back(line);
+  if (charts.size() == 1 && !sentences.empty())  // the reference is less than the answer
+    std::rotate(sentences.begin(), sentences.begin() + 1, sentences.end());
   page.answer(sentences);
   page.section("Figures", page::all_figures(folder, [](const std::string&) {
-                 return "Error against cost of every variant; the line joins the variants that no "
-                        "other beats "
-                        "in both.";
+                 return "Error against cost of every configuration; the line joins those that no "
+                        "other beats in both.";
                }));
   constexpr std::size_t most = 200;
   const std::vector<std::string> results{several ? "case" : "status",
-                                         "variant",
+                                         "configuration",
                                          "claimed_error",
                                          "cost_us_per_ms",
                                          "total_s",
                                          "pareto",
                                          "knee",
                                          "auto"};
-  page.section("Variants",
-               page::table_of_file("Every variant that was tried", page::columns_of(table, results),
-                                   "chart.csv", most));
+  page.section("Configurations",
+               page::table_of_file("Every configuration that was tried",
+                                   page::columns_of(table, results), "chart.csv", most));
   page.section("Every column",
                page::table_of_file("Settings, errors and costs", table, "chart.csv", most),
                page::Page::Shown::folded);
@@ -175,7 +189,7 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   for (const auto& [name, moments] : journal.references())
     folder.write(name + ".csv", record::csv_text(moments));
   const std::vector<std::string> warnings = draw_all(charts, family, folder);
-  write_page(family, text, table, folder);
+  write_page(family, charts, text, table, folder);
   const std::string missing = warn_all(folder.put(WholeFolder::State::complete, warnings), talk);
   journal.remove();
   print(talk.json() ? json_lines(table) : text);
@@ -183,6 +197,7 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
                                                             : ": chart.csv and chart.md" + missing);
   if (!StopScope::stopped()) {
     talk.say(what);
+    talk.next("open", folder.path());
     return exit_good;
   }
   Talk::error("palpate: interrupted; " + what);

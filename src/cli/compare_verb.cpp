@@ -142,7 +142,7 @@ page::Markup overlays(const Compare& command, const compare::FolderComparison& c
     if (fs::exists(picture)) {
       const page::Markup svg =
           page::inline_svg(read_text(picture.string()), page::id_of(file.file), caption);
-      all += page::element("figure", page::element("div", svg, {{"class", "sheet plot"}}) +
+      all += page::element("figure", page::element("div", svg, {{"class", "plot"}}) +
                                          page::element("figcaption", caption));
     }
     fs::remove_all(folder);
@@ -188,9 +188,17 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
   } else if (worst == nullptr) {
     page.headline("Differs", "in its files, columns or rows");
   } else {
-    page.headline(rounded_text(100.0 * worst->worst->relative, 3) + " %",
-                  "largest difference of " + worst->name);
     const compare::WorstRow& row = *worst->worst;
+    const auto* got_number = std::get_if<double>(&row.got);
+    const auto* want_number = std::get_if<double>(&row.want);
+    if (std::isfinite(row.relative))
+      page.headline(rounded_text(100.0 * row.relative, 3) + " %",
+                    "largest difference of " + worst->name);
+    else if (got_number != nullptr && want_number != nullptr)  // where 0 is wanted
+      page.headline(rounded_text(std::abs(*got_number - *want_number), 3),
+                    "largest difference of " + worst->name);
+    else
+      page.headline("Differs", "in " + worst->name);
     page.answer({count + " differ by more than the tolerances, `" + worst->name + "` in " +
                  std::to_string(worst->differing) + " rows; most" +
                  (row.x_name.empty() ? "" : " at " + row.x_name + " " + cell_text(row.x)) +

@@ -204,10 +204,10 @@ class Report {
     const geometry::Skin skin = geometry::skin(mesh);
     count("nodes", mesh.nodes.size());
     count("tetrahedra", mesh.tetrahedra.size());
-    count("skin_vertices", skin.nodes.size());
-    count("skin_triangles", skin.surface.triangles.size());
+    count("surface_vertices", skin.nodes.size());
+    count("surface_triangles", skin.surface.triangles.size());
     add("volume_mm3", 1e9 * geometry::volume(mesh));
-    add("skin_area_mm2", 1e6 * geometry::area(skin.surface));
+    add("surface_area_mm2", 1e6 * geometry::area(skin.surface));
     Vec3 low = mesh.nodes.front();
     Vec3 high = low;
     for (const Vec3& node : mesh.nodes) {
@@ -423,6 +423,7 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
     }
   } else {
     if (kind == Kind::surface) {
+      const ProgressLine line(talk, [&](double) { return "meshing " + command.subject; });
       mesh = mesh_of_surface(command, talk);
     } else {
       auto [found, names, remark] = meshing::read_mesh(command.subject, metres_per(command.unit));

@@ -35,7 +35,7 @@ const char* form_of(const RawTable& table) {
   return "a table in text";
 }
 
-using Details = std::vector<std::pair<std::string, Talk::Value>>;
+using Details = Talk::Details;
 
 // `2  Load (uN)  uN, a force  from 0 to 1.5`
 std::string column_line(const RawTable& table, std::size_t index, const Talk& talk) {

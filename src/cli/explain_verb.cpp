@@ -108,7 +108,7 @@ Json model(const scene::Forecast& rung) {
 }
 
 // One JSON object without line feeds: the plain sentences, the criteria, the models with their
-// errors, and what is left out. Errors and changes are fractions; infinite numbers are null.
+// errors, and what is neglected. Errors and changes are fractions; infinite numbers are null.
 std::string explain_json(const std::string& scenario, const scene::Scene& scene,
                          const run::Expected& expected) {
   Json object{{"event", "explanation"},
@@ -121,20 +121,20 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
               {"sentences",
                {{"model", expected.answer.model},
                 {"error", expected.answer.error},
-                {"left_out", expected.answer.left_out}}},
-              {"left_out", Json::array()},
+                {"neglected", expected.answer.left_out}}},
+              {"neglected", Json::array()},
               {"criteria", Json::array()},
               {"models", Json::array()}};
   if (expected.answer.stated_error) object["error"] = *expected.answer.stated_error;
   for (const run::LeftOut& one : expected.left_out)
-    object["left_out"].push_back(
+    object["neglected"].push_back(
         {{"effect", one.what}, {"change", one.change}, {"text", one.when}, {"remedy", one.remedy}});
   for (const scene::Question& one : scene.choice.questions)
     object["criteria"].push_back({{"topic", one.asked},
                                   {"measure", one.measure},
                                   {"number", one.number},
                                   {"limit", one.threshold},
-                                  {"answer", one.answer}});
+                                  {"result", one.answer}});
   for (const scene::Forecast& rung : scene.choice.rungs) object["models"].push_back(model(rung));
   if (scene.specimen) {
     object["mesh"] = {{"nodes", scene.specimen->network.nodes()},
@@ -431,7 +431,7 @@ class Explanation {
                                               : "as far as `tissue.mesh.most_nodes` allows"));
     if (const auto& error = expected_.mesh_error)
       line("  mesh error   " + error_text(*error) +
-           " of the force at the deepest travel, estimated on this mesh");
+           " of the force at the largest displacement, estimated on this mesh");
     if (scenario::rung(scene_.scenario.solver.model).coupled()) {
       line("  network      coupled in every tetrahedron: it has E and nu of the tissue");
       return;
@@ -526,6 +526,7 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
     print_text(explanation.text(family.design.count() > 1 ? scene.name : "", family.title));
   }
   if (!family.design.empty()) tell_cost(family, talk);
+  if (command.subject != "-") talk.next("run", command.subject);
   return exit_good;
 }
 

@@ -227,7 +227,7 @@ bool measure_scenario(const std::string& path, std::vector<std::string> settings
 }
 
 void write_page(const Chart& command, const Table& table) {
-  page::Page page("Times of a frame of 1 ms", "bench");
+  page::Page page("Times of a frame of 1 ms", "chart of frames");
   page.answer({"Medians of " + std::to_string(command.frames) + " frames on one core."});
   const auto whole = [](const std::string& caption, const record::Table& rows) {
     return page::element("div", page::table(caption, rows), {{"class", "whole"}});

@@ -53,7 +53,7 @@ void find_below(const std::string& folder, std::vector<KeptResult>& found) {
   }
   if (error)
     throw InputError({folder, 0, 0}, "cannot be read: " + error.message() +
-                                         "; give a folder of scenarios and their kept results");
+                                         "; give a folder of scenarios with baselines");
 }
 
 KeptResult KeptResult::of(const std::string& scenario) {
@@ -85,13 +85,13 @@ std::vector<KeptResult> kept_results(const std::vector<std::string>& subjects) {
       throw InputError({subject, 0, 0}, "is not there; give a scenario or a folder");
     if (!found.back().is_kept())
       throw InputError({subject, 0, 0},
-                       "has no kept result; write `palpate golden add " + subject + "`");
+                       "has no baseline; write `palpate golden add " + subject + "`");
   }
   std::sort(found.begin(), found.end(),
             [](const KeptResult& a, const KeptResult& b) { return a.scenario < b.scenario; });
   if (found.empty())
     throw InputError({subjects.front(), 0, 0},
-                     "has no scenario with a kept result; write `palpate golden add SCENARIO`");
+                     "has no scenario with a baseline; write `palpate golden add SCENARIO`");
   return found;
 }
 
@@ -170,7 +170,7 @@ int add(const Golden& command, const Talk& talk) {
   for (const std::string& scenario : command.subjects)
     if (const KeptResult kept = KeptResult::of(scenario); kept.is_kept() && !command.force)
       throw InputError({kept.expected, 0, 0},
-                       "holds the kept result of " + one_line(scenario) +
+                       "holds the baseline of " + one_line(scenario) +
                            "; see what differs by `palpate golden check`, and give `--force` to "
                            "replace it");
   std::vector<std::string> commits;  // before any file changes
@@ -181,8 +181,8 @@ int add(const Golden& command, const Talk& talk) {
     const KeptResult kept = KeptResult::of(command.subjects[i]);
     keep(compute(kept.scenario, worker_count(command.jobs)),
          command.reason.empty() ? "" : baseline_text(command.reason, commits[i]), kept.expected);
-    talk.event("kept", {{"scenario", kept.scenario}, {"expected", kept.expected}});
-    talk.say(one_line(kept.expected) + ": kept");
+    talk.event("added", {{"scenario", kept.scenario}, {"expected", kept.expected}});
+    talk.say(one_line(kept.expected) + ": baseline stored");
   }
   return exit_good;
 }
@@ -228,7 +228,7 @@ int check(const Golden& command, const Talk& talk) {
   const auto equal = std::count_if(checks.begin(), checks.end(),
                                    [](const compare::Check& one) { return one.equal(); });
   talk.say(std::to_string(equal) + " of " + std::to_string(checks.size()) +
-           (checks.size() == 1 ? " scenario gives" : " scenarios give") + " the kept results");
+           (checks.size() == 1 ? " scenario gives" : " scenarios give") + " their baselines");
   return code;
 }
 

@@ -66,7 +66,7 @@ page::Markup picture(const fs::path& file, const std::string& report, const std:
     prefix += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return page::element(
       "figure", page::element("div", page::inline_svg(read_text(file.string()), prefix, words),
-                              {{"class", "sheet plot"}}));
+                              {{"class", page::class_of(file.string())}}));
 }
 
 // Writes index.html of the reports below a folder and returns its path.

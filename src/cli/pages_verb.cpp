@@ -29,6 +29,7 @@ constexpr const char* further = R"(## Exit codes
 | 5 | an unsuitable mesh |
 | 6 | a device's link, or a stop for safety |
 | 7 | a sweep with missing, diverged or failed cases |
+| 8 | another process runs the part of a sweep |
 | 75 | interrupted; the same call continues |
 | 130 | interrupted |
 
@@ -83,6 +84,7 @@ int perform(const New& command, const Arguments&, const Talk& talk) {
     write_atomically(file, starter.text);
     talk.event("wrote", {{"file", file}});
     talk.say(file + ": " + starter.word.meaning + "; `palpate run " + file + "` runs it");
+    talk.next("explain", file);
   }
   return exit_good;
 }

@@ -24,7 +24,9 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   bool diverged = false;
   for (std::size_t i = 0; i < family.cases.size(); ++i) {
     const scenario::Case& one = family.cases[i];
-    std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) { return one.name; });
+    std::optional<ProgressLine> ticker(std::in_place, talk, [&](double seconds) {
+      return bar(i, family.cases.size(), seconds) + ", " + one.name;
+    });
     chart::Reference reference = chart::refer(asked, i);
     ticker.reset();
     for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <filesystem>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -60,6 +62,29 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
   return prepared;
 }
 
+// The event of a case that has ended: its derived quantities under the names of findings.csv, the
+// error as a fraction (null where none is stated), and the sentences for people.
+Talk::Details details_of(const std::string& scenario, const record::CaseRecord& record) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  Talk::Details details{{"scenario", scenario},
+                        {"case", record.name},
+                        {"outcome", record::outcome_word(record.outcome)},
+                        {"reason", record.reason},
+                        {"error", record.answer.stated_error.value_or(unknown)}};
+  for (const record::Finding& finding : record.findings) {
+    if (finding.name == "outcome") continue;
+    if (const auto* word = std::get_if<std::string>(&finding.value))
+      details.emplace_back(finding.name, *word);
+    else if (const auto* number = std::get_if<double>(&finding.value))
+      details.emplace_back(finding.name, *number);
+  }
+  details.emplace_back("sentences",
+                       std::map<std::string, std::string>{{"model", record.answer.model},
+                                                          {"error", record.answer.error},
+                                                          {"neglected", record.answer.left_out}});
+  return details;
+}
+
 struct Ran {
   std::size_t kept = 0;  // number of finished cases
   bool diverged = false;
@@ -75,9 +100,8 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   const std::string started = report::utc_now();
   folder.open();
   std::atomic<std::size_t> done{0};
-  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) {
-    return family.name + ": " + std::to_string(done) + " of " + std::to_string(scenes.size()) +
-           (scenes.size() == 1 ? " case" : " cases");
+  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double seconds) {
+    return bar(done, scenes.size(), seconds) + ", " + family.name;
   });
   std::mutex one_at_a_time;
   std::vector<std::vector<fit::NamedFit>> fits_of(scenes.size());
@@ -87,13 +111,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
     folder.keep(i, record);
     const std::lock_guard lock(one_at_a_time);
     ++done;
-    talk.event("case", {{"scenario", family.name},
-                        {"case", record.name},
-                        {"outcome", record::outcome_word(record.outcome)},
-                        {"reason", record.reason},
-                        {"model", record.answer.model},
-                        {"error", record.answer.error},
-                        {"left_out", record.answer.left_out}});
+    talk.event("case", details_of(family.name, record));
   };
   const std::vector<record::CaseRecord> records = run::run_all(scenes, prepared.workers, finished);
   ticker.reset();
@@ -119,6 +137,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
            std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases") + ran.missing);
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
+  talk.next("open", folder.path());
   return ran;
 }
 

@@ -1,5 +1,7 @@
 // `palpate stability`: measures limits of the time step and failures, and compares with theory.
 #include <filesystem>
+#include <mutex>
+#include <optional>
 
 #include "base/stop_scope.h"
 #include "cli/interrupt.h"
@@ -24,12 +26,20 @@ int perform(const Stability& command, const Arguments&, const Talk& talk) {
     talk.say("note: only the first of " + std::to_string(family.cases.size()) +
              " cases is mapped, " + one.name);
   const StopScope scope(listen_for_interrupts(exit_interrupted));
+  std::mutex telling;
+  std::string at;
+  std::size_t percent = 0;
+  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double seconds) {
+    const std::scoped_lock lock(telling);
+    return bar(percent, 100, seconds) + ", " + family.name + ", " + at;
+  });
   const stability::StabilityMap map =
       stability::map_stability(one, family, [&](const std::string& what, double share) {
-        talk.progress(family.name + ": " + std::to_string(static_cast<int>(100.0 * share)) +
-                      " %, " + what);
+        const std::scoped_lock lock(telling);
+        at = what;
+        percent = static_cast<std::size_t>(100.0 * share);
       });
-  talk.progress("");
+  ticker.reset();
   const std::string missing = warn_all(stability::write_map(map, family.name, folder), talk);
   if (talk.json()) {
     print(json_lines(stability::limit_table(map)) + json_lines(stability::failure_table(map)));
@@ -37,6 +47,7 @@ int perform(const Stability& command, const Arguments&, const Talk& talk) {
     for (const std::string& sentence : map.sentences) print(sentence + "\n");
   }
   talk.say(folder.path() + ": stability.csv, failures.csv, stability.svg" + missing);
+  talk.next("open", folder.path());
   return StopScope::stopped() ? exit_interrupted : exit_good;
 }
 

@@ -177,6 +177,7 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
     text += ", " + std::to_string(totals.missing) + " missing (numbers " + totals.missing_numbers +
             "); `palpate sweep run` runs them";
   talk.say(text + undrawn);
+  talk.next("open", folder.path());
   talk.event("merged", {{"folder", folder.path()},
                         {"cases", totals.cases},
                         {"completed", totals.completed},
@@ -281,8 +282,7 @@ int sweep_parts(const Sweep& command, const Talk& talk) {
     std::size_t cases = 0;
     for (std::size_t i = part - 1; i < plan.count(); i += as_index(command.of))
       if (!results.at(i).known()) ++cases;
-    std::vector<std::pair<std::string, Talk::Value>> details{
-        {"command", call}, {"part", part}, {"cases", cases}};
+    Talk::Details details{{"command", call}, {"part", part}, {"cases", cases}};
     if (cost) {
       const double share = static_cast<double>(cases) / static_cast<double>(plan.count());
       details.emplace_back("seconds", rounded(share * cost->seconds, 3));
@@ -335,20 +335,10 @@ int sweep_slurm(const Sweep& command, const Talk& talk) {
   return exit_good;
 }
 
-// 90 s, 12 min, 3.5 h
-std::string duration_text(double seconds) {
-  if (seconds < 100.0) return rounded_text(std::ceil(seconds), 2) + " s";
-  if (seconds < 6000.0) return rounded_text(seconds / 60.0, 2) + " min";
-  return rounded_text(seconds / 3600.0, 3) + " h";
-}
-
 std::string progress_text(const sweep::SweepProgress& now, double seconds) {
-  std::string text = bar(now.done, now.all);
-  if (now.done > 0) {
-    const double rate = static_cast<double>(now.done) / seconds;
-    text += ", " + rounded_text(rate, 3) + " cases/s, " +
-            duration_text(static_cast<double>(now.all - now.done) / rate) + " left";
-  }
+  std::string text = bar(now.done, now.all, seconds);
+  if (now.done > 0)
+    text += ", " + rounded_text(static_cast<double>(now.done) / seconds, 3) + " cases/s";
   if (now.failed > 0) text += ", " + std::to_string(now.failed) + " failed";
   return text;
 }
@@ -421,6 +411,7 @@ int sweep_run(const Sweep& command, const Talk& talk) {
     write_atomically(command.done, task.shard.text() + " of " + plan.hash + "\n");
   }
   talk.say(text);
+  if (end.missing == 0) talk.next("sweep merge", command.subject);
   return good ? exit_good : exit_partial;
 }
 
@@ -444,16 +435,16 @@ int sweep_plan(const Sweep& command, const Talk& talk) {
   if (!command.reuse.empty())
     talk.say(planned.folder + ": " + std::to_string(planned.reused) + " of " + cases +
              " taken over from " + command.reuse);
-  std::vector<std::pair<std::string, Talk::Value>> details{
-      {"folder", planned.folder},
-      {"cases", planned.cases},
-      {"there_already", planned.there_already}};
+  Talk::Details details{{"folder", planned.folder},
+                        {"cases", planned.cases},
+                        {"there_already", planned.there_already}};
   if (planned.forecast) {
     details.emplace_back("seconds", rounded(planned.forecast->seconds, 3));
     details.emplace_back("row_bytes", rounded(planned.forecast->bytes, 3));
     details.emplace_back("memory_bytes", rounded(planned.forecast->memory, 3));
   }
   talk.event("plan", details);
+  talk.next("sweep run", planned.folder);
   return exit_good;
 }
 

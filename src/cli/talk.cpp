@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "plot/gnuplot.h"
+#include "sweep/slurm.h"
 
 namespace palpate::cli {
 namespace {
@@ -40,16 +42,25 @@ std::string shown(const std::string& text, Commands commands = Commands::hidden)
   return safe;
 }
 
+// Writes a line to stderr, in a colour of the terminal if there is one.
+void write_line(const std::string& line, const char* colour) {
+  const char* no_color = std::getenv("NO_COLOR");  // https://no-color.org: set and not empty
+  const char* term = std::getenv("TERM");
+  const bool coloured = ::isatty(STDERR_FILENO) == 1 && term != nullptr &&
+                        std::string_view(term) != "dumb" &&
+                        (no_color == nullptr || *no_color == '\0');
+  if (coloured) std::fputs(colour, stderr);
+  std::fputs(shown(line).c_str(), stderr);
+  std::fputs(coloured ? "\033[0m\n" : "\n", stderr);
+}
+
 }  // namespace
 
 Talk::Talk(const Manner& manner)
     : manner_(manner),
       terminal_(::isatty(STDERR_FILENO) == 1),
       reader_(::isatty(STDOUT_FILENO) == 1) {
-  const char* no_color = std::getenv("NO_COLOR");  // https://no-color.org: set and not empty
-  const char* term = std::getenv("TERM");
-  const bool dumb = term == nullptr || std::string_view(term) == "dumb";
-  colours_ = terminal_ && !dumb && !manner.no_colour && (no_color == nullptr || *no_color == '\0');
+  if (manner.no_colour) ::setenv("NO_COLOR", "1", 1);
 }
 
 void Talk::say(const std::string& sentence) const {
@@ -57,13 +68,13 @@ void Talk::say(const std::string& sentence) const {
 }
 
 void Talk::warn(const std::string& sentence) const {
-  if (!manner_.quiet && colours_) std::fputs("\033[33m", stderr);  // yellow
-  say("warning: " + sentence);
-  if (!manner_.quiet && colours_) std::fputs("\033[0m", stderr);
+  if (!manner_.quiet) write_line("warning: " + sentence, "\033[33m");  // yellow
 }
 
-void Talk::error(const std::string& sentence) {
-  std::fprintf(stderr, "%s\n", shown(sentence).c_str());
+void Talk::error(const std::string& sentence) { write_line(sentence, "\033[31m"); }  // red
+
+void Talk::next(const std::string& verb, const std::string& path) const {
+  if (shows_progress()) say("next: palpate " + verb + " " + sweep::shell_word(path));
 }
 
 void Talk::annotate(const std::string& lines) {
@@ -76,8 +87,7 @@ void Talk::progress(const std::string& line) const {
   std::fflush(stderr);
 }
 
-void Talk::event(const std::string& name,
-                 const std::vector<std::pair<std::string, Value>>& details) const {
+void Talk::event(const std::string& name, const Details& details) const {
   if (!manner_.json) return;
   nlohmann::ordered_json object;
   object["event"] = name;
@@ -136,11 +146,23 @@ std::string warn_all(const std::vector<std::string>& warnings, const Talk& talk)
   return plot::missing_figures(warnings);
 }
 
-std::string bar(std::size_t done, std::size_t all) {
+std::string duration_text(double seconds) {
+  if (seconds < 100.0) return rounded_text(std::ceil(seconds), 2) + " s";
+  if (seconds < 6000.0) return rounded_text(seconds / 60.0, 2) + " min";
+  return rounded_text(seconds / 3600.0, 3) + " h";
+}
+
+std::string bar(std::size_t done, std::size_t all, double seconds) {
   constexpr std::size_t width = 20;
   const std::size_t filled = all == 0 ? 0 : width * done / all;
   return "[" + std::string(filled, '#') + std::string(width - filled, '.') + "] " +
-         std::to_string(done) + "/" + std::to_string(all);
+         std::to_string(done) + "/" + std::to_string(all) +
+         (done == 0 || seconds <= 0.0
+              ? ""
+              : ", " +
+                    duration_text(seconds * static_cast<double>(all - done) /
+                                  static_cast<double>(done)) +
+                    " left");
 }
 
 void print(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -21,16 +22,20 @@ class Talk {
 
   void say(const std::string& sentence) const;     // stderr, unless quiet
   void warn(const std::string& sentence) const;    // stderr, unless quiet; yellow on terminals
-  static void error(const std::string& sentence);  // stderr, always
+  static void error(const std::string& sentence);  // stderr, always; red on terminals
   static void annotate(const std::string& lines);  // stderr, always: commands to a build server
+
+  // The command that follows on the path, on terminals only: `next: palpate open out/press`.
+  void next(const std::string& verb, const std::string& path) const;
 
   // Replaces the previous progress line, on terminals only; an empty line removes it.
   void progress(const std::string& line) const;
 
   // With --json, prints one JSON object on stdout: {"event": name, ...}.
-  using Value = std::variant<std::string, double, std::size_t, bool>;
-  void event(const std::string& name,
-             const std::vector<std::pair<std::string, Value>>& details) const;
+  using Value =
+      std::variant<std::string, double, std::size_t, bool, std::map<std::string, std::string>>;
+  using Details = std::vector<std::pair<std::string, Value>>;
+  void event(const std::string& name, const Details& details) const;
 
   // Whether progress() shows anything.
   [[nodiscard]] bool shows_progress() const { return terminal_ && !manner_.quiet && !manner_.json; }
@@ -43,7 +48,6 @@ class Talk {
   Manner manner_;
   bool terminal_ = false;  // stderr
   bool reader_ = false;    // stdout is a terminal
-  bool colours_ = false;
 };
 
 // The number that rounded_text() writes.
@@ -76,8 +80,12 @@ class ProgressLine {
   std::thread thread_;
 };
 
-// A progress bar of 20 characters, with the numbers: `[##########..........] 5/10`.
-[[nodiscard]] std::string bar(std::size_t done, std::size_t all);
+// `90 s`, `12 min`, `3.5 h`
+[[nodiscard]] std::string duration_text(double seconds);
+
+// A progress bar of 20 characters, with the numbers and, if `seconds` were needed for what is done,
+// the time left: `[##########..........] 5/10, 12 s left`.
+[[nodiscard]] std::string bar(std::size_t done, std::size_t all, double seconds = 0.0);
 
 // Writes data to stdout. Throws SystemError if it cannot be written.
 void print(const std::string& data);

@@ -39,7 +39,7 @@ record::Table fit_table(std::span<const NamedFit> fits) {
 
 record::Table measured_fit_table(std::span<const NamedFit> fits) {
   record::Table table = fit_table(fits);
-  for (const char* name : {"left_out", "effective_n", "durbin_watson", "law"})
+  for (const char* name : {"excluded", "effective_n", "durbin_watson", "law"})
     table.columns.emplace_back(name);
   std::size_t row = 0;
   for (const NamedFit& named : fits)

@@ -57,10 +57,9 @@ std::string correlation_sentence(double durbin_watson, std::size_t points, doubl
          "count the " +
          std::to_string(points) + " points as " + rounded_text(std::max(1.0, effective), 3) +
          " independent ones, as slow noise wants; the bias of a wrong law is not in them" +
-         (effective < 10.0
-              ? ", and points worth fewer than 10 independent ones cannot tell the two "
-                "apart: record a longer curve"
-              : "");
+         (effective < 10.0 ? ", and an effective sample size below 10 cannot tell the two "
+                             "apart: record a longer curve"
+                           : "");
 }
 
 }  // namespace palpate::fit

@@ -28,7 +28,7 @@ std::string echo_of(const identify::Identification& found, const scenario::Famil
       text +=
           "# " + unknown.name() + " is not determined by itself: one of many values that fit.\n";
     if (unknown.what == identify::Unknown::What::contact_point)
-      text += "# Travel 0 is at " + value + " of the measurement.\n";
+      text += "# Displacement 0 is at " + value + " of the measurement.\n";
     if (unknown.what == identify::Unknown::What::force_offset)
       text += "# contact.ambient_force holds the measurement's offset of " + value + ".\n";
   }
@@ -42,7 +42,8 @@ std::string suffix_of(const Identification& found, std::size_t k) {
 
 std::string figure_words(const std::string& name) {
   if (name.starts_with("profile"))
-    return "How much worse the fit becomes if one value is kept and the others follow; below the "
+    return "How much worse the fit becomes if one value is fixed and the others are fitted; below "
+           "the "
            "line the value is within the 95 % interval.";
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
@@ -51,24 +52,40 @@ std::string figure_words(const std::string& name) {
 void write_page(const identify::Identification& found, std::span<const PairFiles> pairs,
                 const std::vector<HashedFile>& inputs, WholeFolder& folder) {
   page::Page page(pairs.front().family->title, "identification");
-  page.answer(identified_sentences(found));
+  // The first unknown large, the others and what the fit is below.
+  std::vector<std::string> lines = identified_sentences(found);
+  const std::string& first = lines.front();
+  const std::size_t name = first.find("  "), interval = first.find("  (");
+  if (interval != std::string::npos) {
+    page.headline(first.substr(0, name) + " " + trimmed(first.substr(name, interval - name)),
+                  trimmed(first.substr(interval)));
+    lines.erase(lines.begin());
+  }
+  page.answer(lines);
   page.section("Figures", page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;
+  const record::Table table = identified_table(found);
   page.section("Estimates",
-               page::table_of_file("Estimates with 95 % intervals", identified_table(found),
-                                   "identified.csv", most) +
+               page::table_of_file(
+                   "Estimates with 95 % intervals",
+                   page::columns_of(table, {"unknown", "estimate", "unit", "ci95_low", "ci95_high",
+                                            "std_error", "identifiable", "at_bound"}),
+                   "identified.csv", most) +
                    page::table_of_file("Correlation of the estimates", correlation_table(found),
                                        "correlation.csv", most));
+  page.section("Every column",
+               page::table_of_file("Estimates and both intervals", table, "identified.csv", most),
+               page::Page::Shown::folded);
   std::vector<std::string> remarks = found.notes;
   remarks.insert(remarks.end(), found.warnings.begin(), found.warnings.end());
-  page.section("Remarks", page::paragraphs(remarks));
+  page.section("Notes", page::paragraphs(remarks));
   page::Markup asked;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::string name = "scenario" + suffix_of(found, k) + ".toml";
     asked += page::folded("The scenario as written", pairs[k].family->inputs.front().content) +
              page::folded("The scenario with the estimates, " + name, read_text(folder.file(name)));
   }
-  page.section("What was asked", asked);
+  page.section("Scenario", asked);
   page.section("How it was made",
                page::making({.command = "palpate run scenario" + suffix_of(found, 0) + ".toml",
                              .remark = "The command repeats the fitted curve. `palpate identify` "

@@ -42,11 +42,11 @@ class Preparation {
 
   void check_pseudo_keys() {
     for (const auto& [what, does] :
-         {std::pair{Unknown::What::contact_point, "contact_point` shifts a travel"},
-          {Unknown::What::force_tilt, "force_tilt` is the slope of a force over a travel"}})
+         {std::pair{Unknown::What::contact_point, "contact_point` shifts a displacement"},
+          {Unknown::What::force_tilt, "force_tilt` is the slope of a force over a displacement"}})
       if (unknown_of(what) != nullptr && kind_ != CurveKind::force_travel)
         refuse("`--unknown " + std::string(does) + ", and this curve is " +
-               words_of(kind_).sentence + "; give force over travel, or leave it out");
+               words_of(kind_).sentence + "; give force over displacement, or leave it out");
     if (unknown_of(Unknown::What::force_offset) != nullptr &&
         (kind_ == CurveKind::strain_time || kind_ == CurveKind::stress_time ||
          kind_ == CurveKind::stress_strain))
@@ -145,7 +145,7 @@ class Preparation {
                                " loadings is fitted; `--rows` chooses the rows of another");
       note_left_out(static_cast<int>(count - part.to),
                     part.loadings > 1 ? "the way back, and other loadings"
-                                      : "the way back from the deepest travel");
+                                      : "the way back from the largest displacement");
       count = part.to;
       if (contact == nullptr)
         found_.notes.push_back("contact is taken to begin at 0 of `" + measured_.x_name +

@@ -41,7 +41,7 @@ double uneven(double root) { return std::copysign(std::sqrt(std::abs(root * root
 
 const CurveWords& words_of(CurveKind kind) {
   static constexpr std::array<CurveWords, 6> words{{
-      {"normal force over travel, of the first `indent`", unit::mm, unit::N, "travel_mm",
+      {"normal force over displacement, of the first `indent`", unit::mm, unit::N, "travel_mm",
        "force_N"},
       {"normal force over time", unit::s, unit::N, "time_s", "force_N"},
       {"tangential force over the first `slide`", unit::mm, unit::N, "slide_mm", "tangential_N"},

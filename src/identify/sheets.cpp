@@ -16,7 +16,7 @@ std::string label(const char* name, const Unit& unit) {
 
 std::pair<const char*, const char*> axes(identify::CurveKind kind) {
   switch (kind) {
-    case identify::CurveKind::force_travel: return {"Travel", "Force"};
+    case identify::CurveKind::force_travel: return {"Displacement", "Force"};
     case identify::CurveKind::force_time: return {"Time", "Force"};
     case identify::CurveKind::tangential_slide: return {"Slide", "Tangential force"};
     case identify::CurveKind::strain_time: return {"Time", "Strain"};
@@ -51,11 +51,11 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
   const auto [x, y] = axes(found.kind);
   const std::string table = "residuals" + suffix + ".csv";
   const std::string file = "'" + table + "' using 1";
-  std::string text = plot::gnuplot_head("curve" + suffix, 640, 12) +
-                     "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.15\nset "
+  std::string text = plot::gnuplot_head("curve" + suffix, {.height = 660, .tick_font = 12}) +
+                     "set datafile missing NaN\nset multiplot\nset lmargin at screen 0.2\nset "
                      "rmargin at screen 0.97\n";
   text += "set title " + plot::gnuplot_quoted(title + ": measured and fitted") +
-          "\nset tmargin at screen 0.93\nset bmargin at screen 0.42\n"
+          "\nset tmargin at screen 0.91\nset bmargin at screen 0.42\n"
           "set format x ''\nset ylabel " +
           plot::gnuplot_quoted(label(y, words.y)) +
           "\nset key top left Left reverse samplen 2 spacing 1.2\nplot \\\n  " + file +
@@ -65,11 +65,11 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
           ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
   const double scale = power_of_thousand(largest_residual(found));
   text +=
-      "unset title\nunset key\nset tmargin at screen 0.37\nset bmargin at screen 0.125\n"
+      "unset title\nunset key\nset tmargin at screen 0.38\nset bmargin at screen 0.13\n"
       "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
       plot::gnuplot_quoted(label("Measured - model", words.y) + power_text(scale)) +
-      "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#909090', \\\n  " + file + ":($4 / " +
+      "\nplot \\\n  0 with lines linewidth 1 linecolor rgb '#808080', \\\n  " + file + ":($4 / " +
       rounded_text(scale, 3) +
       ") with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2'\nunset multiplot\n";
   return {.name = "curve" + suffix, .script = text, .reads = {table}};
@@ -98,14 +98,11 @@ ProfileAxis profile_axis(const Identification& found, std::size_t i) {
 
 plot::Sheet profile_sheet(const std::string& title, const identify::Identification& found) {
   const std::size_t panels = found.unknowns.size();
-  const std::size_t columns = std::min<std::size_t>(panels, 2);
-  const std::size_t rows = (panels + columns - 1) / columns;
-  std::string text = plot::gnuplot_head("profile", static_cast<int>(120 + 300 * rows), 12);
-  text += "set datafile missing NaN\nset multiplot layout " + std::to_string(rows) + "," +
-          std::to_string(columns) + " title " +
+
+  std::string text = plot::gnuplot_head("profile", {.height = static_cast<int>(60 + 270 * panels)});
+  text += "set datafile missing NaN\nset multiplot layout " + std::to_string(panels) + ",1 title " +
           plot::gnuplot_quoted(title + ": profile likelihood, 95 % below the line") +
-          "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset xtics autofreq rotate by "
-          "-30\nset rmargin 9\n"
+          "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset rmargin 4\n"
           "set yrange [0:*]\n";
   for (std::size_t i = 0; i < panels; ++i) {
     const identify::Identified& one = found.unknowns[i];
@@ -119,7 +116,7 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
                                  (origin == 0.0 ? "" : " - " + rounded_text(origin, 4)) +
                                  (unit.empty() ? "" : " (" + unit + ")") + power_text(scale)) +
             " noenhanced\nplot \\\n  'profile.csv' using " + pick +
-            ":(column('threshold')) with lines linewidth 1 linecolor rgb '#909090', \\\n"
+            ":(column('threshold')) with lines linewidth 1 linecolor rgb '#808080', \\\n"
             "  'profile.csv' using " +
             pick +
             ":(column('delta')) with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "

@@ -88,8 +88,8 @@ Interval trusted(const Identified& one) {
 
 record::Table identified_table(const Identification& found) {
   record::Table table;
-  table.columns = {"unknown",   "unit",       "estimate", "std_error",   "ci95_low",
-                   "ci95_high", "at_bound",   "tied",     "profile_low", "profile_high",
+  table.columns = {"unknown",   "unit",       "estimate",     "std_error",   "ci95_low",
+                   "ci95_high", "at_bound",   "identifiable", "profile_low", "profile_high",
                    "interval",  "moved_down", "moved_up"};
   for (const Identified& one : found.unknowns) {
     const Unknown& unknown = one.unknown;
@@ -97,14 +97,14 @@ record::Table identified_table(const Identification& found) {
     table.rows.push_back(
         {unknown.name(), unknown.unit_text(), cell(estimate, unknown), cell(one.std_error, unknown),
          cell(one.ci95_low, unknown), cell(one.ci95_high, unknown), word(one.at_bound),
-         word(one.tied), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
+         word(!one.tied), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
          one.tied ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
          cell(one.moved_down, unknown), cell(one.moved_up, unknown)});
     if (unknown.unit_text().empty()) table.rows.back()[1] = Cell();
   }
   for (const Combination& one : found.combinations) {
     table.rows.push_back({one.text, one.unit, one.estimate, one.std_error, one.ci95_low,
-                          one.ci95_high, word(false), word(false), Cell(), Cell(),
+                          one.ci95_high, word(false), word(true), Cell(), Cell(),
                           std::string("student"), Cell(), Cell()});
     if (one.unit.empty()) table.rows.back()[1] = Cell();
   }

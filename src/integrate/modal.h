@@ -43,7 +43,7 @@ class Modal {
   }
   [[nodiscard]] Eigen::Index modes() const { return omega_.size(); }
   [[nodiscard]] double highest() const { return omega_[omega_.size() - 1]; }  // 1/s, of those kept
-  // The static displacement (m) under `load` (N) of the modes that are kept, and of the others.
+  // The static displacement (m) under `load` (N) of the modes that are used, and of the others.
   void kept(const Vector& load, Vector& moved) const;
   void dropped(const Vector& load, Vector& moved) const;
 

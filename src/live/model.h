@@ -58,7 +58,7 @@ class LiveModel {
 struct FrameCost {
   double median = 0.0;               // s
   double p99 = 0.0;                  // s, 99th percentile
-  double force = 0.0;                // N, at the deepest travel of the loading history
+  double force = 0.0;                // N, at the largest displacement of the loading history
   std::optional<std::string> wrong;  // why the model ended before; empty if it did not
 };
 

@@ -358,7 +358,7 @@ class StandLoop {
                   {.force = indent->to.second ? indent->to.value : Limits::none});
         if (good && indent->to.second && last_.force < indent->to.value)
           good = ends({LiveEnd::Why::link, "the force of step " + std::to_string(step_) +
-                                               " was not reached at the deepest travel"});
+                                               " was not reached at the largest displacement"});
       } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
         good = go(surface_ - retract->to, retract->rate, {});
       } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {

@@ -68,7 +68,7 @@ std::string cause_clause(Cause cause, const Verdict& verdict) {
              "; take one with a larger range, or press less deep";
     case Cause::short_press:
       return "short press: it ends at " + length_text(verdict.deepest) + " of " +
-             length_text(verdict.asked) + "; press to the travel that the scenario asks for";
+             length_text(verdict.asked) + "; press to the displacement that the scenario asks for";
     case Cause::noise:
       return "noise: the gauge scatters by " + millinewtons(verdict.noise) +
              ", and a smaller difference cannot be told; use a gauge of a smaller range, or its "

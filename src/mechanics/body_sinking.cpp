@@ -211,9 +211,8 @@ void BodySinking::spread(const contact::Patch& patch) {
 }
 
 // Calls add(place, k, weight, product, slope, fading) for every place and its k-th radius:
-// `product` is Lagrange's polynomial of that radius, and `slope` its derivative. Beyond the table a
-// value levels off, with a slope that begins as the polynomial's ends: product + slope * (1 -
-// fading).
+// `product` is Lagrange's polynomial of that radius, and `slope` its derivative. Outside of the
+// table a value goes on with the slope at its end, which decays: product + slope * (1 - fading).
 template <class Add>
 void BodySinking::at_radius(const contact::Patch& patch, const Add& add) {
   const double ratio = patch.radius() / largest_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/text.h"
 #include "plot/gnuplot_text.h"
@@ -84,7 +85,8 @@ Markup cell(const record::Cell& value, bool heading, const std::string& column) 
     attributes.emplace_back("data-column", column);
   if (const auto* number = std::get_if<double>(&value)) {
     if (!heading) attributes.emplace_back("class", "number");
-    return element(heading ? "th" : "td", plot::tick_text(*number, 4), attributes);
+    const std::string shown = std::isfinite(*number) ? plot::tick_text(*number, 4) : "–";
+    return element(heading ? "th" : "td", shown, attributes);
   }
   const auto* word = std::get_if<std::string>(&value);
   constexpr std::size_t sentence = 50;  // letters; a column of such texts is not made narrow

@@ -28,18 +28,17 @@ a { color: var(--link); } a:focus-visible, summary:focus-visible, .wide:focus-vi
 input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .skip { position: absolute; left: -999rem; } .skip:focus { position: static; }
 .kind { color: var(--soft); margin: 0; }
-.big { font-size: 2rem; font-weight: 600; line-height: 1.2; }
-.big span { font-size: 1.3rem; font-weight: 400; }
+.big { font-size: clamp(1.4rem, 5.5vw, 2rem); font-weight: 600; line-height: 1.2; }
+.big span { font-size: .65em; font-weight: 400; }
 .answer { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .answer p { margin: .35rem 0; }
 nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
 figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
-figure svg { display: block; width: 100%; min-width: 34rem; max-width: 51rem; height: auto; }
-.sheet { overflow-x: auto; }
-@media screen and (max-width: 37rem) {
-  .sheet::before { content: "Slide the figure sideways to see all of it."; color: var(--soft); font-size: .9rem; } }
-.white { background: #ffffff; border-radius: .4rem; }
+figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
+@media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
+  #scene-still text { font-size: 1.25em; } pre { white-space: pre-wrap; } .wide td { overflow-wrap: anywhere; } }
+.white { background: #ffffff; border-radius: .4rem; max-width: 44rem; }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
 .maps img { width: 100%; display: block; height: auto; image-rendering: pixelated; border: 1px solid var(--line); }
@@ -55,8 +54,7 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
-.whole svg, .cards svg { min-width: 0; } .whole .sheet::before, .cards .sheet::before { content: none; }
+.cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .answer td { white-space: nowrap; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide tr, .wide th, .wide td { display: block; } .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
@@ -66,8 +64,8 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
-  .wide, .sheet, pre { overflow: visible; } pre { white-space: pre-wrap; }
-  figure svg { min-width: 0; } details:not([open]) { display: none; } }
+  .wide, pre { overflow: visible; } .wide table { font-size: .78rem; } pre { white-space: pre-wrap; }
+  details:not([open]) { display: none; } }
 )css";
 }
 
@@ -184,6 +182,13 @@ Markup inline_svg(const std::string& svg, const std::string& prefix,
       prefix));
 }
 
+std::string class_of(const std::string& picture) {
+  const fs::path script = fs::path(picture).replace_extension(".gp");
+  const bool colours =
+      fs::exists(script) && read_text(script.string()).find("set palette") != std::string::npos;
+  return colours ? "white" : "plot";
+}
+
 Markup figures(const std::vector<ShownFigure>& shown, const WholeFolder& folder) {
   Markup all;
   for (const ShownFigure& figure : shown) {
@@ -196,7 +201,7 @@ Markup figures(const std::vector<ShownFigure>& shown, const WholeFolder& folder)
       continue;
     }
     const Markup svg = inline_svg(read_text(folder.file(picture)), figure.name, figure.caption);
-    all += element("figure", element("div", svg, {{"class", "sheet plot"}}) +
+    all += element("figure", element("div", svg, {{"class", class_of(folder.file(picture))}}) +
                                  element("figcaption",
                                          caption + text("; picture: ") + link(picture, picture)));
   }

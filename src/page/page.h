@@ -52,6 +52,10 @@ struct ShownFigure {
 // The figures of a folder. For a picture that was not drawn, the files with the data are named.
 [[nodiscard]] Markup figures(const std::vector<ShownFigure>& shown, const WholeFolder& folder);
 
+// The class of a figure: `plot`, which the dark inverts, or `white` where its script, beside it,
+// gives numbers colours.
+[[nodiscard]] std::string class_of(const std::string& picture);
+
 // All figures of a folder whose scripts are listed in it, in that order. `words` gives the caption
 // of the figure NAME; an empty caption leaves the figure out.
 [[nodiscard]] Markup all_figures(const WholeFolder& folder,

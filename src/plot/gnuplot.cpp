@@ -158,13 +158,11 @@ std::size_t letters(const std::string& text) {
   }));
 }
 
-// Where the legend is and how large it makes the picture.
+// The legend stands below the plot, which keeps its width, and makes the picture higher.
 struct Legend {
   std::vector<std::string> labels = {};  // in the order of the series, each once
   std::size_t lines = 0;
-  std::size_t rows = 0;     // below the plot, where several labels stand side by side
-  bool below = false;       // long labels beside the plot would leave no place for it
-  bool beside_bar = false;  // the bar is beside the plot: short labels stand in rows below
+  std::size_t rows = 0;  // where several labels stand side by side; 0: one line is enough
 
   explicit Legend(const Figure& figure) {
     std::size_t longest = 0;
@@ -179,19 +177,17 @@ struct Legend {
     lines = labels.size() + (fits ? 1 : 0) + (figure.legend.empty() ? 0 : 1);
     if (fits) longest = std::max(longest, letters(figure.fit_label));
     longest = std::max(longest, letters(figure.legend));
-    constexpr std::size_t most_letters_beside = 18;
-    below = longest > most_letters_beside;
-    constexpr std::size_t letters_of_a_row = 90, sample = 8;
+    constexpr std::size_t short_label = 12;
+    if (figure.bar && longest <= short_label) return;
+    constexpr std::size_t letters_of_a_row = 64, sample = 8;
     const std::size_t columns = std::max<std::size_t>(1, letters_of_a_row / (longest + sample));
     rows = (lines + columns - 1) / columns;
-    beside_bar = figure.bar.has_value();
   }
 
   [[nodiscard]] int height() const {
-    constexpr int plot = 500, line = 20;
-    const int text = line * static_cast<int>(lines);
-    if (below) return plot + line * static_cast<int>(rows);
-    return beside_bar ? plot + (lines > 0 ? 60 : 0) : std::max(plot, 120 + text);
+    constexpr int plot = 400, line = 20;
+    if (lines == 0) return plot;
+    return plot + (rows > 0 ? line * static_cast<int>(rows) : 60);
   }
 };
 
@@ -201,13 +197,11 @@ std::string frame(const Figure& figure, const Legend& legend) {
                      gnuplot_quoted(figure.y_label) + "\nset tmargin 2.5\nset samples 500\n";
   if (legend.lines == 0)
     text += "unset key\nset rmargin 3\n";
-  else if (legend.below)
+  else if (legend.rows > 0)
     text += "set key below vertical maxrows " + std::to_string(legend.rows) +
             " height 1 Left reverse samplen 2.6 spacing 1.25\nset rmargin 3\n";
-  else if (legend.beside_bar)
-    text += "set key below horizontal height 1 Left reverse samplen 2.6 spacing 1.25\n";
   else
-    text += "set key outside right top Left reverse samplen 2.6 spacing 1.25 width -2\n";
+    text += "set key below horizontal height 1 Left reverse samplen 2.6 spacing 1.25\n";
   if (figure.from_zero && figure.y_axis == Axis::linear) text += "set yrange [*<0:0<*]\n";
   const auto logarithmic = [&](const std::string& axis, double low, double high) {
     text += "set " + axis + "range [" + rounded_text(low, 6) + ":" + rounded_text(high, 6) + "]\n" +
@@ -335,8 +329,8 @@ std::string data_line(const Figure& figure, const Legend& legend, const KeptRows
   const std::string width = figure.bar ? "1.8" : "3.5";
   // What was measured is drawn as points, what was computed as a line.
   if (series.y_column.starts_with("measured_"))
-    return kept.x_of(series) + kept.y_of(series) + " with points linewidth 1.2 linecolor rgb '#" +
-           look.colour + "' pointtype 6 pointsize 0.5 title " + gnuplot_quoted(label(series));
+    return kept.x_of(series) + kept.y_of(series) + " with points linewidth 1.6 linecolor rgb '#" +
+           look.colour + "' pointtype 7 pointsize 0.4 title " + gnuplot_quoted(label(series));
   if (series.dashed)
     return kept.x_of(series) + kept.y_of(series) +
            " with lines linewidth 2 dashtype (7,4) linecolor rgb '#" + look.colour + "' title " +
@@ -381,8 +375,8 @@ std::string gnuplot_script(const Figure& figure) {
     lines.push_back("NaN with lines linewidth 1.8 dashtype (7,4) linecolor rgb '#404040' title " +
                     gnuplot_quoted(figure.fit_label));
   const std::string plot = "plot \\\n  " + joined(lines, ", \\\n  ") + "\n";
-  return gnuplot_head(figure.name, legend.height()) + frame(figure, legend) + functions(figure) +
-         kept.text(figure) +
+  return gnuplot_head(figure.name, {.height = legend.height()}) + frame(figure, legend) +
+         functions(figure) + kept.text(figure) +
          gnuplot_ticks(plot, std::string(figure.x_axis == Axis::linear ? "x" : "") +
                                  (figure.y_axis != Axis::linear ? ""
                                   : figure.from_zero            ? "y0"

@@ -40,7 +40,7 @@ std::string gnuplot_quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string gnuplot_head(const std::string& name, int height, int tick_font) {
+std::string gnuplot_head(const std::string& name, const Canvas& canvas) {
   const std::string script = name + ".gp";
   return "# Run in this folder: gnuplot " + script +
          "\n"
@@ -52,16 +52,17 @@ std::string gnuplot_head(const std::string& name, int height, int tick_font) {
          gnuplot_quoted(name + ".") +
          ".format\n"
          "if (format eq 'pdf') {\n"
-         "  set terminal pdfcairo noenhanced size 18cm," +
-         rounded_text(0.022 * height, 3) +
+         "  set terminal pdfcairo noenhanced size " +
+         rounded_text(0.022 * canvas.width, 3) + "cm," + rounded_text(0.022 * canvas.height, 3) +
          "cm font 'sans-serif,15' fontscale 0.62 linewidth 1.1\n"
          "} else { if (format eq 'png') {\n"
-         "  set terminal pngcairo noenhanced size 1640," +
-         std::to_string(2 * height) +
+         "  set terminal pngcairo noenhanced size " +
+         std::to_string(2 * canvas.width) + "," + std::to_string(2 * canvas.height) +
          " font 'sans-serif,15' fontscale 1.5 linewidth 2 background '#ffffff'\n"
          "} else {\n"
-         "  set terminal svg noenhanced size 820," +
-         std::to_string(height) + " font 'sans-serif,15' name " + gnuplot_quoted(name) +
+         "  set terminal svg noenhanced size " +
+         std::to_string(canvas.width) + "," + std::to_string(canvas.height) +
+         " font 'sans-serif,15' name " + gnuplot_quoted(name) +
          " background '#ffffff'\n"
          "} }\n"
          "set encoding utf8\n"
@@ -70,7 +71,7 @@ std::string gnuplot_head(const std::string& name, int height, int tick_font) {
          "set datafile columnheaders\n"
          "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
          "set tics nomirror out scale 0.6 textcolor rgb '#202020' font '," +
-         std::to_string(tick_font) +
+         std::to_string(canvas.tick_font) +
          "'\n"
          "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n"
          "set format x '%.10g'\nset format y '%.10g'\nset format cb '%.10g'\n";

@@ -16,9 +16,17 @@ inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 // The value in a row of the CSV column with this name: `column('NAME')`.
 [[nodiscard]] std::string gnuplot_column(const std::string& name);
 
+// The size of a picture in pixels. Texts of 15 pixels stay readable where a telephone shows it at
+// 0.6 of this width.
+struct Canvas {
+  int height = 400;
+  int tick_font = 14;
+  int width = 600;
+};
+
 // The head of the script NAME.gp: how to run it, terminal, output and the style of data, frame,
-// ticks and grid; 820 x `height` pixels, with ticks in `tick_font` pixels.
-[[nodiscard]] std::string gnuplot_head(const std::string& name, int height, int tick_font = 14);
+// ticks and grid.
+[[nodiscard]] std::string gnuplot_head(const std::string& name, const Canvas& canvas);
 
 // A number on an axis or a page, with `digits` significant digits: `0.02`, `500`, `2×10⁶`. Powers
 // of ten are written below 0.001 and from `powers_from` on.

@@ -14,8 +14,12 @@ namespace palpate::report {
 
 // Each figure lists the file and columns that it uses for a series that names none.
 
-// Force against indentation (Figure 6): force_indentation.csv, indentation_mm, force_N.
+// Force against the displacement, the indentation of test standards: force_indentation.csv,
+// travel_mm, force_N.
 [[nodiscard]] plot::Figure figure_force_indentation(std::vector<plot::Series> series);
+// The same over indentation_mm, the effective depth, which the contact law and its fits take
+// (Figure 6).
+[[nodiscard]] plot::Figure figure_force_depth(std::vector<plot::Series> series);
 
 // Force against the curvature of the tissue at the contact (Figure 6 of the paper, lower graph),
 // one point per case: findings.csv, local_curvature_per_m, peak_force_N.

@@ -44,7 +44,7 @@ plot::Sheet map_sheet(const record::PressureMap& map, const std::string& file) {
   const std::string highest =
       rounded_text(unit::kPa.from_si(double{std::max(highest_pressure(map), 1.0F)}), 4);
   return {.name = file,
-          .script = plot::gnuplot_head(file, 680) + plot::gnuplot_palette() +
+          .script = plot::gnuplot_head(file, {.height = 500}) + plot::gnuplot_palette() +
                     "unset datafile columnheaders\n"
                     "$pressure << END\n" +
                     rows + "END\nset size ratio -1\n" + axis("x", map.origin.x(), map.width) +

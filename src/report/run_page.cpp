@@ -41,11 +41,11 @@ constexpr std::array rows{
     Row{"display_scale", course, "", "factor of this case in figures; the CSV files are in N"},
     Row{"peak_force_N", peak, "N", "largest force"},
     Row{"peak_friction_N", peak, "N", "largest tangential force that friction allows"},
-    Row{"peak_indentation_mm", peak, "mm", "indentation there"},
-    Row{"peak_travel_mm", peak, "mm", "travel of the finger there"},
+    Row{"peak_indentation_mm", peak, "mm", "effective depth there"},
+    Row{"peak_travel_mm", peak, "mm", "displacement of the finger there"},
     Row{"local_curvature_per_m", peak, "1/m", "curvature of the surface there, convex positive"},
     Row{"signed_curvature_per_m", peak, "1/m", "the same with the signs of the votes"},
-    Row{"sinking_mm", peak, "mm", "largest displacement of the loaded node"},
+    Row{"surface_displacement_mm", peak, "mm", "largest displacement of the loaded node"},
     Row{"friction_jump_N", peak, "N", "largest change of the tangential force between two rows"},
     Row{"turning_drop", peak, "%", "part of the force that is lost where the finger turns back"},
     Row{"edge_reaction_over_force", peak, "%", "part of the force that the fixed edge carries"},
@@ -68,14 +68,14 @@ constexpr std::array rows{
     Row{"measured_surface_mm", gauge, "mm", "how much lower the specimen lies"},
     Row{"measured_hysteresis", gauge, "%", "energy lost in the cycle, measured"},
     Row{"model_hysteresis", gauge, "%", "energy lost in the cycle, computed"},
-    Row{"measured_contact_mm", gauge, "mm", "travel at first contact, measured"},
-    Row{"model_contact_mm", gauge, "mm", "travel at first contact, computed"},
-    Row{"measured_release_mm", gauge, "mm", "travel at release, measured"},
-    Row{"model_release_mm", gauge, "mm", "travel at release, computed"},
-    Row{"depth_ratio", validity, "", "indentation over radius, h / R"},
+    Row{"measured_contact_mm", gauge, "mm", "displacement at first contact, measured"},
+    Row{"model_contact_mm", gauge, "mm", "displacement at first contact, computed"},
+    Row{"measured_release_mm", gauge, "mm", "displacement at release, measured"},
+    Row{"model_release_mm", gauge, "mm", "displacement at release, computed"},
+    Row{"depth_ratio", validity, "", "effective depth over radius, h / R"},
     Row{"contact_radius_ratio", validity, "", "contact radius over radius, a / R"},
     Row{"thickness_ratio", validity, "", "contact radius over the height of the specimen"},
-    Row{"curvature_ratio", validity, "", "ratio of the two curvatures at the first touch"},
+    Row{"curvature_ratio", validity, "", "ratio of the two curvatures at first contact"},
     Row{"force_over_pull_off", validity, "", "force over an adhesive pull-off force"},
     Row{"thickness_effect", validity, "%", "more force by the finite thickness"},
     Row{"side_effect", validity, "%", "change by free sides of flat layers"},
@@ -98,13 +98,13 @@ constexpr std::array rows{
     Row{"nodes_before_refining", mesh, "", "nodes before refining"},
     Row{"tetrahedra", mesh, "", "tetrahedra"},
     Row{"springs", mesh, "", "springs"},
-    Row{"network_young_modulus_kPa", mesh, "kPa", "Young's modulus of the springs, measured"},
-    Row{"network_poisson_ratio", mesh, "", "Poisson's ratio of the springs, measured"},
-    Row{"kept_modes", mesh, "", "modes that are kept"},
+    Row{"springs_young_modulus_kPa", mesh, "kPa", "Young's modulus of the springs, measured"},
+    Row{"springs_poisson_ratio", mesh, "", "Poisson's ratio of the springs, measured"},
+    Row{"kept_modes", mesh, "", "modes that are used"},
     Row{"locking", mesh, "", "displacement over that of the mesh that resists volume less"},
     Row{"stable_time_step_ms", time, "ms", "longest stable time step"},
     Row{"time_step_ms", time, "ms", "time step"},
-    Row{"substeps", time, "", "solver steps per time step asked for"},
+    Row{"substeps", time, "", "solver steps per `solver.time_step`"},
     Row{"damping_ratio", time, "", "damping ratio of the lowest mode"},
     Row{"creep_half_time_s", time, "s", "time until half of the final strain"},
     Row{"pressure_map_imbalance", checks, "%", "pressure maps against the force"},
@@ -127,7 +127,7 @@ const std::vector<FindingGroup>& finding_groups() {
       {"Mesh", "The mesh that stood for the tissue."},
       {"Time", "The steps in time."},
       {"Checks", "Balances that would be zero in exact arithmetic on an infinitely fine mesh."},
-      {"More", "Values that the scenario asked for by name."}};
+      {"More", "Values that the scenario names."}};
   return groups;
 }
 
@@ -489,13 +489,15 @@ std::string neglected(const record::Answer& answer) {
   return text;
 }
 
-// The largest force or, without a finger, strain or stress, of a case: `1.17 N`.
-std::string peak_text(const record::CaseRecord& record) {
-  for (const auto& [name, unit] :
-       {std::pair("peak_force_N", " N"), {"peak_strain", ""}, {"peak_stress_kPa", " kPa"}})
+// The largest force or, without a finger, strain or stress, of a case: `Peak force 1.17 N`.
+std::pair<std::string, std::string> peak_words(const record::CaseRecord& record) {
+  using Words = std::array<const char*, 3>;
+  for (const auto& [name, unit, words] :
+       {Words{"peak_force_N", " N", "Peak force "}, Words{"peak_strain", "", "Peak strain "},
+        Words{"peak_stress_kPa", " kPa", "Peak stress "}})
     if (const double value = finding_number(record, name); std::isfinite(value))
-      return rounded_text(value, 3) + unit;
-  return "no result";
+      return {words, rounded_text(value, 3) + unit};
+  return {"", "no result"};
 }
 
 std::string peak_error(const record::CaseRecord& record) {
@@ -508,7 +510,7 @@ std::string peak_error(const record::CaseRecord& record) {
 record::Table case_table(const Records& records) {
   record::Table table{{"case", "largest value", "error", "model", "neglected"}, {}};
   for (const record::CaseRecord& record : records)
-    table.rows.push_back({record.name, peak_text(record), peak_error(record),
+    table.rows.push_back({record.name, peak_words(record).second, peak_error(record),
                           finding_word(record, "model"), neglected(record.answer)});
   return table;
 }
@@ -518,7 +520,8 @@ void add_answer(page::Page& page, const Records& records) {
   if (records.size() == 1) {
     const record::Answer& answer = records.front().answer;
     if (answer.left_out.empty()) return page.answer({answer.model, answer.error});  // no model ran
-    page.headline(peak_text(records.front()), peak_error(records.front()));
+    const auto& [words, value] = peak_words(records.front());
+    page.headline(words + value, peak_error(records.front()));
     page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
   } else if (!records.empty()) {
     std::vector<std::string> lines = answer_lines(records);
@@ -550,7 +553,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   constexpr auto folded = page::Page::Shown::folded;
   page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
                folded);
-  page.section("Remarks", remarks(records), folded);
+  page.section("Warnings", remarks(records), folded);
   page.section(
       "Findings",
       records.size() <= most_columns
@@ -559,7 +562,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
       folded);
   page.section("Fits", fits(shown.fits), folded);
   page.section("Pressure maps", maps(records), folded);
-  page.section("What was asked", asked(family, read_text(folder.file("scenario.toml"))), folded);
+  page.section("Scenario", asked(family, read_text(folder.file("scenario.toml"))), folded);
   std::vector<HashedFile> inputs;
   for (const scenario::InputFile& input : family.inputs)
     inputs.push_back({input.name, sha256(input.content)});

@@ -511,10 +511,10 @@ Markup scene_view(const record::ScenePicture& picture, const std::string& title)
     words += (&material == picture.materials.data() ? " of " : ", ") + material;
   words += picture.finger.empty()
                ? std::string(" before anything moves.")
-               : " and finger at its first touch; the arrow is the deepest travel, " +
+               : " and finger at first contact; the arrow is the largest displacement, " +
                      mm(picture.travel) + " mm.";
   Markup inner = element("div", page::inline_svg(scene_svg(picture, title), "scene", words),
-                         {{"class", "sheet white"}, {"id", "scene-still"}});
+                         {{"class", "white"}, {"id", "scene-still"}});
   const SceneAngles angles = scene_angles(picture);
   inner += element("canvas", Markup(),
                    {{"id", "scene-canvas"},

@@ -304,13 +304,14 @@ class LeftOuts {
     if (rung_.solid || mesh_is_tissue() || e_.edge <= 0.2 * tolerance()) return;
     omit("an edge of the body near the contact", e_.edge,
          "which may change the force by up to " + percent_text(e_.edge),
-         "set `solver.model = \"solid\"`, or press farther from it");
+         waves_matter() ? "press farther from it"
+                        : "set `solver.model = \"solid\"`, or press farther from it");
   }
 
   void ball() {
     if (rung_.solid || e_.ball <= 0.2 * tolerance()) return;
     omit("the size of the finger, a ball that is stiffer than Hertz's law has it", e_.ball,
-         would(e_.ball), "set `solver.model = \"solid\"`");
+         would(e_.ball), waves_matter() ? "" : "set `solver.model = \"solid\"`");
   }
 
   // By how much a half-space under `series` is too soft.                 docs/theory.md [depth]
@@ -328,11 +329,14 @@ class LeftOuts {
       return omit(
           "large strains", most,
           "which may change the force by up to " + percent_text(most) + " where it is deepest",
-          mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
-                           : "set `solver.model = \"solid\"`");
-    omit("large strains", e_.deep, would(e_.deep) + " where it is deepest",
-         mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
-                          : "add `contact.depth = \"neo_hookean\"`");
+          waves_matter()     ? "press less deep"
+          : mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
+                             : "set `solver.model = \"solid\"`");
+    std::string remedy = "add `contact.depth = \"neo_hookean\"`";
+    if (mesh_is_tissue())
+      remedy = (waves_matter() ? remedy : "set `solver.model = \"solid\"`") +
+               " and leave out `contact.coupling`";
+    omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
   }
 
   void viscosity() {
@@ -343,7 +347,7 @@ class LeftOuts {
   }
 
   void waves() {
-    if (e_.inertia <= tolerance()) return;
+    if (!waves_matter()) return;
     const std::string when = would(e_.inertia) + " at this speed";
     if (!rung_.inertia) return omit("waves in the tissue", e_.inertia, when, mesh_with_waves());
     if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
@@ -352,9 +356,11 @@ class LeftOuts {
          "`contact.coupling = \"resolved\"`");
   }
 
+  // `solid` is no remedy then, because it has no inertia.
+  [[nodiscard]] bool waves_matter() const { return e_.inertia > tolerance(); }
+
   // Waves reach the force of a mesh where its springs do not damp them.
   [[nodiscard]] std::string mesh_with_waves() const {
-    if (rung_.solid) return "";
     std::string mesh = "set `solver.model = \"coupled_springs\"`";
     if (scene_.scenario.tissue.viscosity != tissue::Viscosity::none)
       mesh += " and `tissue.viscosity = \"none\"`";

@@ -42,8 +42,8 @@ struct Expected {
 // Whether the force of a press comes from a mesh that states its own error in every row.
 [[nodiscard]] bool states_mesh_error(const scene::Scene& scene);
 
-// The mesh's own error in the static force at the deepest travel of the loading history, a fraction
-// of it. Nothing without a finger on a mesh with `consistent`, or where the contact has no
+// The mesh's own error in the static force at the largest displacement of the loading history, a
+// fraction of it. Nothing without a finger on a mesh with `consistent`, or where the contact has no
 // solution.
 //                                                                   docs/theory.md [sinking]
 [[nodiscard]] std::optional<double> mesh_error(const scene::Scene& scene);

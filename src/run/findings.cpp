@@ -147,8 +147,8 @@ class Findings {
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
     add("springs", static_cast<double>(specimen.network.springs()));
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));
-    add("network_young_modulus_kPa", unit::kPa.from_si(modulus));
-    add("network_poisson_ratio", specimen.measured.poisson_ratio);
+    add("springs_young_modulus_kPa", unit::kPa.from_si(modulus));
+    add("springs_poisson_ratio", specimen.measured.poisson_ratio);
     if (specimen.plan.limit) add("stable_time_step_ms", unit::ms.from_si(*specimen.plan.limit));
     add("time_step_ms", unit::ms.from_si(specimen.plan.substep));
     add("substeps", static_cast<double>(specimen.plan.substeps));
@@ -158,7 +158,7 @@ class Findings {
       remark("the step is " + rounded_text(specimen.plan.substep / *specimen.plan.limit, 3) +
              " times the stability limit: this motion grows from rounding, do not trust it");
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)
-      remark("the spring network is " + percent_text(std::abs(modulus / table_modulus - 1.0)) +
+      remark("the springs as a whole are " + percent_text(std::abs(modulus / table_modulus - 1.0)) +
              (modulus > table_modulus ? " stiffer" : " softer") +
              " than the tissue's Young's modulus, measured on the specimen");
   }
@@ -300,10 +300,13 @@ class Findings {
     const auto& ratio = scene_.depth_ratio;  // where it is used
     if (!contact::mesh_is_tissue(coupling) && !rung_.solid && ratio &&
         peak.travel > ratio->last_depth() && depth > 0.1)
-      remark("the travel reached " + quantity_text(peak.travel, unit::mm) +
+      remark("the displacement reached " + quantity_text(peak.travel, unit::mm) +
              ", and the factor for deep presses is known up to " +
              quantity_text(ratio->last_depth(), unit::mm) + " here: the force may be off by " +
-             percent_text(e.deep_error) + "; press less deep, or take `solver.model = \"solid\"`");
+             percent_text(e.deep_error) + "; press less deep" +
+             (e.inertia > scene_.scenario.solver.tolerance
+                  ? ""  // which `solid` does not have
+                  : ", or take `solver.model = \"solid\"`"));
     if (mesh && coupling == contact::Coupling::series)
       remark("series coupling counts the tissue's compliance twice: on a half-space " +
              percent_text(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +
@@ -475,7 +478,8 @@ class KnownFailures {
     if (scene_.scenario.contact.spread != Contact::Spread::nearest_node) return;
     double sunk = 0.0;
     for (const record::Finding& finding : record_.findings)
-      if (finding.name == "sinking_mm") sunk = unit::mm.to_si(std::get<double>(finding.value));
+      if (finding.name == "surface_displacement_mm")
+        sunk = unit::mm.to_si(std::get<double>(finding.value));
     remark("all of the force is on one node, which has sunk by " + millimetres(sunk) +
            ": it would move about twice as far on a mesh of half the cells' size; write "
            "`contact.spread = \"pressure\"`");

@@ -217,8 +217,8 @@ record::ScenePicture picture_of(const scene::Scene& scene) {
   picture.faces = mesh ? faces(*mesh) : faces(body, scenario);
   if (!std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape)) {
     mark_held(scenario, picture.faces);
-    picture.base =
-        scenario.tissue.base == tissue::Base::bonded ? "held (bonded base)" : "on a table (slides)";
+    picture.base = scenario.tissue.base == tissue::Base::bonded ? "fixed (bonded base)"
+                                                                : "on a table (slides)";
   }
   picture.materials = {scenario.tissue.material};
   for (const auto& region : scenario.regions) picture.materials.push_back(region.material);

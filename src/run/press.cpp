@@ -121,7 +121,7 @@ class Press {
     if (mesh_ && scene_.scenario.solver.rings)
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
-      record_.findings.push_back({"sinking_mm", unit::mm.from_si(deepest_sinking_)});
+      record_.findings.push_back({"surface_displacement_mm", unit::mm.from_si(deepest_sinking_)});
     if (!mesh_ && scene_.scenario.output.tissue)
       record_.remarks.push_back(
           "`" + std::string(scenario::rung(scene_.scenario.solver.model).word) +
@@ -134,7 +134,7 @@ class Press {
           "side it touched");
     if (folded_at_ >= 0.0)
       record_.remarks.push_back(
-          "at a travel of " + quantity_text(folded_at_, unit::mm) +
+          "at a displacement of " + quantity_text(folded_at_, unit::mm) +
           " a tetrahedron of the computed displacement turns inside out; the force does not depend "
           "on it, but pictures of the deformed mesh are wrong from there on");
     if (nearly_conforming_)
@@ -196,7 +196,7 @@ class Press {
     }
     if (to_force)
       return diverged(
-          "the force of the step was not reached; give a smaller force, or a travel as `to`");
+          "the force of the step was not reached; give a smaller force, or a displacement as `to`");
     return true;
   }
 

@@ -101,10 +101,10 @@ class Checker {
                                  " after a step to a force, which may have gone deeper; "
                                  "give a force here too, or `retract` first");
     else if (before.in_order && indent.to.value <= before.travel)
-      before.in_order =
-          out_of_order(path, "`indent` goes to " + to + ", which is not below the travel of " +
-                                 quantity_text(before.travel, unit::mm) +
-                                 " before it; use `retract` to go back");
+      before.in_order = out_of_order(path, "`indent` goes to " + to +
+                                               ", which is not below the displacement of " +
+                                               quantity_text(before.travel, unit::mm) +
+                                               " before it; use `retract` to go back");
     else
       too_deep(path, indent.to.value);
     return {indent.to.value, 0.0, before.in_order};
@@ -112,10 +112,11 @@ class Checker {
 
   Reached retracted(const std::string& path, const Retract& retract, Reached before) {
     if (retract.to >= before.travel && before.in_order)
-      before.in_order = out_of_order(
-          path, "`retract` goes to " + quantity_text(retract.to, unit::mm) +
-                    ", which is not above the travel of " + quantity_text(before.travel, unit::mm) +
-                    " before it; use `indent` to go deeper");
+      before.in_order =
+          out_of_order(path, "`retract` goes to " + quantity_text(retract.to, unit::mm) +
+                                 ", which is not above the displacement of " +
+                                 quantity_text(before.travel, unit::mm) +
+                                 " before it; use `indent` to go deeper");
     return {retract.to, 0.0, before.in_order};
   }
 

@@ -339,7 +339,9 @@ static void fields(FieldVisitor& visitor, MeshFile& mesh) {
 }
 
 static void fields(FieldVisitor& visitor, Indent& step) {
-  visitor.either({"to", "Travel below the undeformed surface, or contact force, to reach."},
+  visitor.either({"to",
+                  "Displacement below the undeformed surface (column `travel_mm`), or contact "
+                  "force, to reach."},
                  step.to, unit::mm, unit::N, above(0));
   visitor.quantity({"rate", "Speed of the finger."}, step.rate, unit::mm_per_s, above(0));
 }
@@ -347,7 +349,7 @@ static void fields(FieldVisitor& visitor, Hold& step) {
   visitor.quantity({"time", "How long."}, step.time, unit::s, above(0));
 }
 static void fields(FieldVisitor& visitor, Retract& step) {
-  visitor.quantity({"to", "Travel to go back to; negative is above the surface."}, step.to,
+  visitor.quantity({"to", "Displacement to go back to; negative is above the surface."}, step.to,
                    unit::mm, {});
   visitor.quantity({"rate", "Speed of the finger."}, step.rate, unit::mm_per_s, above(0));
 }

@@ -252,16 +252,16 @@ struct Device {
 };
 
 struct Indent {
-  static constexpr Word word{"indent", "Press to a travel, or until a force is reached."};
+  static constexpr Word word{"indent", "Press to a displacement, or until a force is reached."};
   Target to{0.003, false};  // m, or N where `second`
   double rate = 0.005;      // m/s
 };
 struct Hold {
-  static constexpr Word word{"hold", "Keep the travel for a time."};
+  static constexpr Word word{"hold", "Keep the displacement for a time."};
   double time = 1.0;  // s
 };
 struct Retract {
-  static constexpr Word word{"retract", "Withdraw to a travel."};
+  static constexpr Word word{"retract", "Withdraw to a displacement."};
   double to = 0.0;      // m
   double rate = 0.005;  // m/s
 };

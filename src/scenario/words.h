@@ -10,7 +10,7 @@ using palpate::word;
 
 inline constexpr auto viscosities = words_of<tissue::Viscosity>(
     {{"none", "springs only"},
-     {"nodal_drag", "drag of every node against the ground, eq. (10)"},
+     {"nodal_drag", "mass-proportional damping: every node against the ground, eq. (10)"},
      {"kelvin_voigt", "a dashpot along every spring, Fig. 4"},
      {"standard_linear_solid", "a spring and dashpot branch beside every spring"},
      {"prony", "several such branches, `[[tissue.branch]]`"}});
@@ -54,9 +54,11 @@ inline constexpr auto curvature_surfaces = words_of<Contact::CurvatureOn>(
     {{"rest", "of the undeformed tissue"},
      {"deformed", "of the deformed tissue; the run ends if it conforms to the finger"}});
 inline constexpr auto couplings = words_of<contact::Coupling>(
-    {{"one_way", "eq. (2) with the finger's travel; the mesh does not change the force"},
-     {"series", "travel minus the mesh's displacement there; counts the tissue's compliance twice"},
-     {"consistent", "travel minus the part of the displacement that Hertz's law does not contain"},
+    {{"one_way", "eq. (2) with the finger's displacement; the mesh does not change the force"},
+     {"series",
+      "the finger's displacement minus the mesh's there; counts the tissue's compliance twice"},
+     {"consistent",
+      "the finger's displacement minus the part of the mesh's that Hertz's law does not contain"},
      {"resolved", "the mesh represents the whole tissue; needs three cells per contact radius"}});
 inline constexpr Word auto_contact_viscosities{
     "auto", "`tissue` where the scenario gives `tissue.viscosity`"};

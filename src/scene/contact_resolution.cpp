@@ -72,7 +72,7 @@ void refuse_unresolved(const Scene& scene) {
   const double cells = cells_per_contact_radius(scene);
   if (cells >= least_cells) return;
   throw MeshError("`resolved` needs 3 cells along the contact radius, and the mesh has " +
-                  rounded_text(cells, 2) + " at the deepest travel of " +
+                  rounded_text(cells, 2) + " at the largest displacement of " +
                   quantity_text(deepest_travel(scene.scenario, scene.law()), unit::mm) +
                   "; give `tissue.mesh` more cells or a `grading`, or set "
                   "`contact.coupling = \"consistent\"`");

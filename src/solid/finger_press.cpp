@@ -325,7 +325,7 @@ void FingerPress::press_ball(double force) {
                                                : 1.5 * ball_.reached;
     const auto found = ball_press_->go(-next / (1.0 - order_.share) * Vec3::UnitZ());
     if (!found || !(found->normal() > 0.0)) {
-      reason_ = "the solid finds no equilibrium of the finger's ball beyond a travel of " +
+      reason_ = "the solid finds no equilibrium of the finger's ball beyond a displacement of " +
                 quantity_text(ball_.reached, unit::mm) + "; press less deep";
       return;
     }
@@ -387,7 +387,7 @@ std::optional<Answer> FingerPress::go(double travel) {
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) {
     const double reached = order_.touch.finger.z() - press_->reached().z();
-    reason_ = "the solid finds no equilibrium beyond a travel of " +
+    reason_ = "the solid finds no equilibrium beyond a displacement of " +
               rounded_text(unit::mm.from_si(reached), 3) +
               " mm: the tissue folds there; press less deep";
   }

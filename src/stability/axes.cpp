@@ -106,7 +106,7 @@ void along_damping(Survey& survey) {
       tissue::ViscousLaw drag;
       drag.kind = Viscosity::nodal_drag;
       drag.drag = 2.0 * zeta * omega;
-      add_limit(survey, *survey.own, method, drag, {.axis = "drag_per_s", .value = drag.drag});
+      add_limit(survey, *survey.own, method, drag, {.axis = "damping_per_s", .value = drag.drag});
       tissue::ViscousLaw voigt;
       voigt.kind = Viscosity::kelvin_voigt;
       voigt.time = 2.0 * zeta / omega;
@@ -137,7 +137,7 @@ void along_contact(Survey& survey) {
       add_limit(survey, *survey.own, method, {},
                 {.axis = "contact_stiffness_N_per_m",
                  .value = spring->stiffness,
-                 .note = times == 1.0 ? "the contact at the deepest travel" : "",
+                 .note = times == 1.0 ? "the contact at the largest displacement" : "",
                  .contact = &*spring});
     }
   }

@@ -126,8 +126,8 @@ struct Damping {
 };
 [[nodiscard]] Damping damping_of(const scenario::Case& one, tissue::Viscosity form);
 
-// The contact at the deepest travel of the loading history as a spring on the mesh, with the force
-// distributed over the nodes by the Hertz pressure; nothing for uniform tests.
+// The contact at the largest displacement of the loading history as a spring on the mesh, with the
+// force distributed over the nodes by the Hertz pressure; nothing for uniform tests.
 [[nodiscard]] std::optional<ContactSpring> contact_spring(const ProbedBody& probed);
 
 using Integrator = scenario::Solver::Integrator;

@@ -72,12 +72,13 @@ void probe_inversion(Survey& survey) {
   FailureRow row;
   row.failure = Failure::inversion;
   row.rung = "any";
-  row.measure = "travel of the top's middle node alone until a tetrahedron turns, mm";
+  row.measure = "displacement of the top's middle node alone until a tetrahedron turns, mm";
   const std::optional<double> turns = bisect_limit(upright, 0.1 * theory, 1e3 * theory, 1e-6);
   row.reached = turns.has_value();
   if (turns) row.measured = 1e3 * *turns;
   row.theory = 1e3 * theory;
-  row.note = "the height of the flattest tetrahedron there: no travel of a press may come near it";
+  row.note =
+      "the height of the flattest tetrahedron there: no displacement of a press may come near it";
   survey.map.failures.push_back(row);
 
   survey.go_on("false equilibrium");
@@ -103,7 +104,7 @@ void probe_inversion(Survey& survey) {
     left.rung = "mass_spring, nonlinear";
     left.integrator = "backward_difference";
     left.setting = times;
-    left.setting_unit = "push over the inverting travel, then let go";
+    left.setting_unit = "push over the inverting displacement, then let go";
     left.measure = "greatest displacement that stays without load, mm";
     left.measured = 1e3 * state.displacement.cwiseAbs().maxCoeff();
     left.theory = 0.0;
@@ -325,7 +326,8 @@ void probe_tunnelling(Survey& survey, double depth) {
   row.rung = "any";
   row.setting = 1e3 * rate;
   row.setting_unit = "mm/s, the rate of loading";
-  row.measure = "rate above which a press to the deepest travel falls between two frames, mm/s";
+  row.measure =
+      "rate above which a press to the largest displacement falls between two frames, mm/s";
   const auto seen = [&](double speed) { return !slips_through(depth, speed, frame); };
   row.theory = 1e3 * 2.0 * depth / frame;
   if (const auto limit = bisect_limit(seen, 0.01 * depth / frame, 1e3 * depth / frame, 1e-4))

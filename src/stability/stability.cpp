@@ -76,7 +76,7 @@ void survey_rungs(Survey& survey) {
               !(own && form == Viscosity::none))
             continue;
           add_limit(survey, *probed, method, damping.law,
-                    {.axis = "rung", .note = damping.assumed ? "viscosity assumed" : ""});
+                    {.axis = "model", .note = damping.assumed ? "viscosity assumed" : ""});
         }
       }
     }
@@ -123,6 +123,7 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   probe_shape(survey);
   probe_touch(survey);
   {
+    survey.map.longest_step = longest_step(survey);
     std::vector<std::string> sentences = map_sentences(survey);
     survey.map.sentences.insert(survey.map.sentences.begin(), sentences.begin(), sentences.end());
   }

@@ -52,6 +52,7 @@ struct StabilityMap {
   std::vector<LimitRow> limits;
   std::vector<FailureRow> failures;
   std::vector<std::string> sentences;
+  std::optional<double> longest_step = {};  // s, of central differences without damping
 };
 
 // Measures the map of a case with a mesh of at most `most_map_nodes` nodes:

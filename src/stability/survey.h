@@ -47,6 +47,9 @@ void probe_time(Survey& survey);   // divergence, non_finite, drift
 void probe_shape(Survey& survey);  // inversion, false equilibrium, locking
 void probe_touch(Survey& survey);  // tunnelling, chatter
 
+// The longest step (s) that was stable with central differences and the scenario's own model.
+[[nodiscard]] std::optional<double> longest_step(const Survey& survey);
+
 // The findings of the map as sentences, for stdout.
 [[nodiscard]] std::vector<std::string> map_sentences(const Survey& survey);
 

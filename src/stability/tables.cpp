@@ -37,7 +37,7 @@ const char* failure_word(Failure failure) {
 
 record::Table limit_table(const StabilityMap& map) {
   record::Table table;
-  table.columns = {"rung",     "volume",    "integrator", "damping", "axis", "value",
+  table.columns = {"model",    "volume",    "integrator", "damping", "axis", "value",
                    "limit_us", "theory_us", "ratio",      "failure", "note"};
   for (const LimitRow& row : map.limits) {
     Cell ratio;
@@ -51,7 +51,7 @@ record::Table limit_table(const StabilityMap& map) {
 
 record::Table failure_table(const StabilityMap& map) {
   record::Table table;
-  table.columns = {"failure", "rung",     "integrator", "setting", "setting_unit",
+  table.columns = {"failure", "model",    "integrator", "setting", "setting_unit",
                    "measure", "measured", "theory",     "seen",    "note"};
   for (const FailureRow& row : map.failures)
     table.rows.push_back({failure_word(row.failure), cell(row.rung), cell(row.integrator),
@@ -72,6 +72,9 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
   // The limit and the step that is taken; the rest is for a second look.
   std::vector<std::string> more = map.sentences;
   if (!more.empty()) {
+    if (map.longest_step)
+      page.headline(rounded_text(1e6 * *map.longest_step, 4) + " µs",
+                    "longest stable step of central differences");
     page.answer({more.front()});
     more.erase(more.begin());
   }
@@ -82,10 +85,24 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
       }));
   page.section("In words", page::paragraphs(more), page::Page::Shown::folded);
   constexpr std::size_t most = 60;
-  page.section("Limits", page::table_of_file("Limits of the time step, measured and by theory",
-                                             limit_table(map), "stability.csv", most));
-  page.section("Failures", page::table_of_file("Kinds of failure and whether they were seen",
-                                               failure_table(map), "failures.csv", most));
+  const record::Table limits = limit_table(map), failures = failure_table(map);
+  const std::string of_limits = "Limits of the time step, measured and by theory";
+  const std::string of_failures = "Kinds of failure and whether they were seen";
+  page.section("Limits", page::table_of_file(
+                             of_limits,
+                             page::columns_of(limits, {"integrator", "model", "damping", "axis",
+                                                       "value", "limit_us", "theory_us", "ratio"}),
+                             "stability.csv", most));
+  page.section(
+      "Failures",
+      page::table_of_file(of_failures,
+                          page::columns_of(failures, {"failure", "seen", "integrator", "setting",
+                                                      "setting_unit", "measured", "theory"}),
+                          "failures.csv", most));
+  page.section("Every column",
+               page::table_of_file(of_limits, limits, "stability.csv", most) +
+                   page::table_of_file(of_failures, failures, "failures.csv", most),
+               page::Page::Shown::folded);
   page.section("How it was made",
                page::making({.command = "palpate stability " + title + ".toml"}, {}, folder));
   page::write(std::move(page), folder);
@@ -177,7 +194,7 @@ std::string panel(const stability::StabilityMap& map, const std::string& axis, S
     if (row.axis != axis || !row.measured || !row.theory) continue;
     y.take(1e6 * *row.measured);
     y.take(1e6 * *row.theory);
-    x.take(axis == "rung" ? 1e6 * *row.theory : row.value.value_or(0.0));
+    x.take(axis == "model" ? 1e6 * *row.theory : row.value.value_or(0.0));
   }
   std::string text = "\n" + plot::gnuplot_linear("x") + plot::gnuplot_linear("y") +
                      "set xrange [*:*]\nset yrange [*:*]\n";
@@ -189,17 +206,17 @@ std::string panel(const stability::StabilityMap& map, const std::string& axis, S
 
 // Measured over theoretical limits of every model and damping; equal ones lie on the diagonal.
 std::string agreement(const stability::StabilityMap& map) {
-  std::vector<std::string> lines{"x with lines linewidth 1.2 linecolor rgb '#909090' notitle"};
+  std::vector<std::string> lines{"x with lines linewidth 1.2 linecolor rgb '#808080' notitle"};
   for (const Curve& curve : method_curves) {
-    if (!drawn(map, curve, "rung")) continue;
-    lines.push_back("'stability.csv' using " + picked(curve, "rung", "theory_us") + ":" +
-                    picked(curve, "rung", "limit_us") + " with points pointsize 0.45 pointtype " +
+    if (!drawn(map, curve, "model")) continue;
+    lines.push_back("'stability.csv' using " + picked(curve, "model", "theory_us") + ":" +
+                    picked(curve, "model", "limit_us") + " with points pointsize 0.45 pointtype " +
                     std::to_string(curve.marker) + " linecolor rgb '#" + curve.colour +
                     "' title '" + curve.label + "'");
   }
-  return panel(map, "rung", Scale::logarithmic, "Every model and damping", "limit by theory, µs") +
-         "set key at screen 0.5, screen 0.955 center top vertical maxrows 1 Left reverse samplen 1 "
-         "font ',12'\n"
+  return panel(map, "model", Scale::logarithmic, "Every model and damping", "limit by theory, µs") +
+         "set key at screen 0.5, screen 0.975 center top vertical maxrows 1 Left reverse samplen 1 "
+         "font ',13'\n"
          "plot \\\n  " +
          joined(lines, ", \\\n  ") + "\nunset key\n";
 }
@@ -207,9 +224,9 @@ std::string agreement(const stability::StabilityMap& map) {
 std::string strip() {
   std::string text =
       "\n" + plot::gnuplot_linear("x") + plot::gnuplot_linear("y") +
-      "set key default top right horizontal Left reverse samplen 1 font ',12'\n"
-      "set lmargin at screen 0.075\nset rmargin at screen 0.985\n"
-      "set tmargin at screen 0.16\nset bmargin at screen 0.045\n"
+      "set key default top right horizontal Left reverse samplen 1 font ',13'\n"
+      "set lmargin at screen 0.075\nset rmargin at screen 0.975\n"
+      "set tmargin at screen 0.125\nset bmargin at screen 0.06\n"
       "set title 'Kinds of failure: one mark per setting that was tried'\n"
       "unset xlabel\nunset ylabel\nunset ytics\nset xrange [-0.5:7.5]\nset yrange [0:1]\n"
       "set xtics (";
@@ -217,7 +234,9 @@ std::string strip() {
   std::string index = "NaN";
   for (int i = 1; i <= 8; ++i) {
     const std::string word = stability::failure_word(static_cast<stability::Failure>(i));
-    names.push_back("'" + word + "' " + std::to_string(i - 1));
+    // On two lines in turn, because neighbours would overlap.
+    names.push_back("\"" + std::string(i % 2 == 0 ? "\\n" : "") + word + "\" " +
+                    std::to_string(i - 1));
     index = "word eq '" + word + "' ? " + std::to_string(i - 1) + " : " + index;
   }
   // Marks of one kind are drawn side by side, shifted by their number within the kind.
@@ -236,11 +255,11 @@ std::string strip() {
 }  // namespace
 
 plot::Sheet stability_sheet(const std::string& title, const stability::StabilityMap& map) {
-  std::string text = plot::gnuplot_head("stability", 960, 11);
+  std::string text = plot::gnuplot_head("stability", {.height = 1480, .tick_font = 13});
   text +=
       "set datafile missing NaN\nset xtics offset 0,0.3\nset ytics offset 0.5,0\n"
-      "set title offset 0,-0.6 font ',13'\nset xlabel offset 0,0.9 font ',12'\nunset key\n"
-      "set multiplot layout 3,3 margins screen 0.075,0.985,0.255,0.89 spacing screen 0.085,0.085 "
+      "set title offset 0,-0.6 font ',13'\nset xlabel offset 0,0.9 font ',13'\nunset key\n"
+      "set multiplot layout 5,2 margins screen 0.11,0.975,0.19,0.93 spacing screen 0.13,0.055 "
       "title " +
       plot::gnuplot_quoted("Limit of the time step (µs), " + title +
                            ": theory as lines, measurements as points") +
@@ -253,13 +272,13 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
   of_methods("young_modulus_Pa", Scale::logarithmic, "Young's modulus", "Pa");
   text += panel(map, "poisson_ratio", Scale::linear_x, "Volume term of coupled springs",
                 "Poisson's ratio") +
-          "set key default bottom left Left reverse samplen 1 spacing 1.1 font ',11'\nset xrange "
+          "set key default bottom left Left reverse samplen 1 spacing 1.1 font ',13'\nset xrange "
           "[0:0.52]\n"
           "set xtics 0.1\n" +
           curves(map, volume_curves, "poisson_ratio", Legend::own) +
           "unset key\nset xrange [*:*]\n";
   of_methods("shortest_edge_mm", Scale::logarithmic, "Element size", "shortest edge, mm");
-  of_methods("drag_per_s", Scale::logarithmic, "Drag on nodes", "1/s");
+  of_methods("damping_per_s", Scale::logarithmic, "Damping of nodes", "1/s");
   of_methods("retardation_time_s", Scale::logarithmic, "Dashpots along springs",
              "retardation time, s");
   of_methods("relaxation_time_s", Scale::linear_y, "Standard linear solid", "relaxation time, s");
@@ -289,7 +308,7 @@ const LimitRow* find(const Survey& survey, const std::string& axis, const std::s
 
 std::string limits_sentence(const Survey& survey) {
   const scene::TimePlan& plan = survey.own->scene.specimen->plan;
-  const LimitRow* free = find(survey, "rung", "central_difference", "none");
+  const LimitRow* free = find(survey, "model", "central_difference", "none");
   std::string text = std::string(scenario::rung(survey.rung.model).word) + " with volume `" +
                      scenario::words::word(scenario::words::volumes, survey.rung.volume) + "`, " +
                      std::to_string(survey.own->nodes()) + " nodes: ";
@@ -324,7 +343,7 @@ std::string first_to_fail(const Survey& survey) {
   const LimitRow* shortest = nullptr;
   const std::string rung = scenario::rung(survey.rung.model).word;
   for (const LimitRow& row : survey.map.limits)
-    if (row.axis == "rung" && row.rung == rung && row.measured && row.theory &&
+    if (row.axis == "model" && row.rung == rung && row.measured && row.theory &&
         (shortest == nullptr || *row.measured < *shortest->measured))
       shortest = &row;
   if (shortest == nullptr) return {};
@@ -363,7 +382,7 @@ std::string axis_sentence(const Survey& survey, const std::string& axis, const s
 std::string device_sentence(const Survey& survey) {
   const auto spring = contact_spring(*survey.own);
   if (!spring) return {};
-  return "On a haptic device: the stiffness of the contact at the deepest travel, " +
+  return "On a haptic device: the stiffness of the contact at the largest displacement, " +
          rounded_text(spring->stiffness) + " N/m, requires a device damping of " +
          rounded_text(contact::needed_damping(spring->stiffness, {})) +
          " N s/m at frames of 1 ms (K T / 2).";
@@ -386,6 +405,11 @@ std::string failures_sentence(const Survey& survey) {
 }
 
 }  // namespace
+
+std::optional<double> longest_step(const Survey& survey) {
+  const LimitRow* free = find(survey, "model", "central_difference", "none");
+  return free == nullptr ? std::nullopt : free->measured;
+}
 
 std::vector<std::string> map_sentences(const Survey& survey) {
   std::vector<std::string> all{

@@ -2,6 +2,7 @@
 #include "sweep/columns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -16,19 +17,21 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_outputs = 6;
+constexpr const char* displacement = "peak_travel_mm";  // a response where the force is given
 
 // The place of a column among the usual outputs, from 0; nothing: only shown if `show` names it.
 std::optional<std::size_t> rank(const std::string& column) {
   if (column.starts_with("force_at_")) return 0;
-  constexpr std::array<const char*, 9> usual{"peak_force_N",
-                                             "force_indentation_logarithmic_a_N",
-                                             "force_indentation_logarithmic_b_N",
-                                             "creep_half_time_s",
-                                             "creep_kelvin_voigt_tau_s",
-                                             "creep_standard_linear_solid_tau_s",
-                                             "relaxation_standard_linear_solid_tau_s",
-                                             "recovery_kelvin_voigt_recovery_tau_s",
-                                             "peak_strain"};
+  constexpr std::array<const char*, 10> usual{"peak_force_N",
+                                              "peak_stress_kPa",
+                                              "secant_modulus_kPa",
+                                              "peak_strain",
+                                              "creep_half_time_s",
+                                              "creep_kelvin_voigt_tau_s",
+                                              "creep_standard_linear_solid_tau_s",
+                                              "relaxation_standard_linear_solid_tau_s",
+                                              "recovery_kelvin_voigt_recovery_tau_s",
+                                              displacement};
   for (std::size_t i = 0; i < usual.size(); ++i)
     if (column == usual[i]) return i + 1;
   return std::nullopt;
@@ -139,7 +142,8 @@ SweepColumns ColumnReader::finish() {
             "` has the same value, or none, in every case: there is nothing to draw");
     } else if (asked_) {
       done.outputs.push_back(std::move(output));
-    } else if (known(output.values) == completed_ && done.outputs.size() < most_outputs) {
+    } else if (known(output.values) == completed_ && done.outputs.size() < most_outputs &&
+               (output.name != displacement || done.outputs.empty())) {
       done.outputs.push_back(std::move(output));
     }
   }

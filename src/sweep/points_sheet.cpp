@@ -122,20 +122,16 @@ std::optional<plot::Sheet> points_sheet(const sweep::SweepColumns& columns,
     panels.push_back(panel(shown(*factors[f]), of_output, colour, output.name, failed));
   }
   const std::string name = "response_" + file_word(output.name);
-  const std::size_t across = panels.size() == 1 ? 1 : 2;
-  const std::size_t rows = (panels.size() + across - 1) / across;
   std::string whole = title + ": " + of_output.label;
   if (every(columns) > 1) whole += ", one case in " + std::to_string(every(columns));
   if (failed) whole += "; crosses: no value";
-  const int height = 72 + 330 * static_cast<int>(rows);
-  std::string text = plot::gnuplot_head(name, height, 12) +
-                     "unset key\nset xlabel font ',12' offset 0,0.4\n"
-                     "set ylabel font ',12' offset 1,0\nset cblabel font ',12' offset -0.8,0\n" +
-                     plot::gnuplot_palette() + "set multiplot layout " + std::to_string(rows) +
-                     "," + std::to_string(across) + " margins screen 0.1,0.905," +
-                     rounded_text(72.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
-                     " spacing screen 0.225," + rounded_text(75.0 / height, 3) + " title " +
-                     plot::gnuplot_quoted(whole) + " font ',15'\n";
+  const int height = 72 + 300 * static_cast<int>(panels.size());
+  std::string text =
+      plot::gnuplot_head(name, {.height = height}) + "unset key\nset xlabel offset 0,0.4\n" +
+      plot::gnuplot_palette() + "set multiplot layout " + std::to_string(panels.size()) +
+      ",1 margins screen 0.14,0.8," + rounded_text(72.0 / height, 3) + "," +
+      rounded_text(1.0 - 45.0 / height, 3) + " spacing screen 0," + rounded_text(75.0 / height, 3) +
+      " title " + plot::gnuplot_quoted(whole) + " font ',15'\n";
   for (const std::string& one : panels) text += one;
   return plot::Sheet{name, text + "\nunset multiplot\n", {points_file}};
 }

@@ -144,7 +144,7 @@ std::string map(const Response& response) {
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
       scale_of_one("cb", response) + "set cblabel " +
       plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
-      "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.37\n"
+      "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.365\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
       // Edges of SVG are crisp; in other pictures the background would shine through between cells.
       "border = format eq 'svg' ? 'noborder' : 'border linewidth 0.4'\n" +
@@ -157,7 +157,7 @@ std::string map(const Response& response) {
       ") with boxxyerror fillstyle solid 1.0 @border linecolor palette notitle"};
   if (!lines.segments.empty())
     for (const char* style :
-         {"linewidth 2.6 linecolor rgb '#90ffffff'", "linewidth 0.9 linecolor rgb '#202020'"})
+         {"linewidth 2.6 linecolor rgb '#30ffffff'", "linewidth 0.9 linecolor rgb '#202020'"})
       plots.push_back(std::string("$contours using 1:2:($3-$1):($4-$2) with vectors nohead ") +
                       style + " notitle");
   if (has_gaps(response))
@@ -181,7 +181,7 @@ std::vector<std::size_t> chosen(std::size_t count) {
 // The legend is narrower than an axis: a long key is shortened to its last part.
 std::string narrow_label(const sweep::FactorChoice& factor) {
   std::string label = factor_label(factor);
-  if (label.size() <= 18) return label;
+  if (label.size() <= 14) return label;
   const std::size_t unit = std::min(label.find(" ("), label.size());
   const std::size_t dot = label.rfind('.', unit);
   return dot == std::string::npos ? label : label.substr(dot + 1);
@@ -231,7 +231,7 @@ std::string curve_plots(const Response& response) {
 
 plot::Sheet response_sheet(const Response& response) {
   const bool both = response.is_map();
-  std::string text = plot::gnuplot_head(response.name, both ? 860 : 470) +
+  std::string text = plot::gnuplot_head(response.name, {.height = both ? 720 : 400}) +
                      "set xlabel offset 0,0.6\nset ylabel offset 0.6,0\n" + plot::gnuplot_palette();
   const std::string title = plot::gnuplot_quoted(response.title);
   const std::string label =
@@ -239,17 +239,17 @@ plot::Sheet response_sheet(const Response& response) {
   if (both) {
     const Lines lines = lines_of(response);
     if (!lines.segments.empty()) text += data_of_lines(response, lines);
-    text += "set multiplot\nset lmargin at screen 0.12\nset rmargin at screen 0.79\nset title " +
-            title + "\nset tmargin at screen 0.945\nset bmargin at screen 0.545\n" + label +
+    text += "set multiplot\nset lmargin at screen 0.14\nset rmargin at screen 0.79\nset title " +
+            title + "\nset tmargin at screen 0.93\nset bmargin at screen 0.565\n" + label +
             map(response) +
-            "unset title\nset tmargin at screen 0.46\nset bmargin at screen 0.095\n"
-            "set key at screen 0.805, screen 0.455 left top Left reverse font ',13' samplen 1.6 "
+            "unset title\nset tmargin at screen 0.45\nset bmargin at screen 0.1\n"
+            "set key at screen 0.805, screen 0.45 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curve_plots(response) + "unset multiplot\n";
   } else {
     const Ends range = ends(response.grid.x);
-    text += "set lmargin at screen 0.12\nset rmargin at screen 0.79\nset title " + title + "\n" +
+    text += "set lmargin at screen 0.14\nset rmargin at screen 0.79\nset title " + title + "\n" +
             label + axis("x", response.across, range.low, range.high) +
             "set key at screen 0.805, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"

@@ -61,9 +61,9 @@ std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
   for (const auto& row : outputs.front()) longest = std::max(longest, row.factor.size());
   const int panel = 34 + 38 * static_cast<int>(factors);
   const int height = 105 + panel * static_cast<int>(outputs.size());
-  const double margin = std::min(0.45, 0.04 + 0.0108 * static_cast<double>(longest));
+  const double margin = std::min(0.5, 0.04 + 0.0148 * static_cast<double>(longest));
   std::string text =
-      plot::gnuplot_head("sensitivity", height) +
+      plot::gnuplot_head("sensitivity", {.height = height}) +
       "unset grid\nset grid xtics linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\nunset key\n"
       "set xrange [" +
       rounded_text(least < 0.0 ? least - 0.02 : 0.0, 4) + ":" + rounded_text(most + 0.02, 4) +
@@ -89,7 +89,7 @@ std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
     text += "set title " + plot::gnuplot_quoted(output_label(rows.front().output)) +
             "\nset ytics (" + joined(tics, ", ") + ")\nplot \\\n  " +
             bars(rows, "first_order", "0072B2", 0.03, 0.33) + ", \\\n  " +
-            bars(rows, "total", "E69F00", -0.33, -0.03) + "\n";
+            bars(rows, "total", "D55E00", -0.33, -0.03) + "\n";
   }
   return plot::Sheet{"sensitivity", text + "unset multiplot\n", {"sensitivity.csv"}};
 }

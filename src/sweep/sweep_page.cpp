@@ -10,23 +10,33 @@
 namespace palpate::sweep {
 namespace {
 
-// For each output its range, and the factor on which it depends most.
+// `Peak force 0.0157 to 1.76 N`
+std::string range_text(const OutputColumn& output) {
+  const Ends range = ends(output.values);
+  const std::string label = output_label(output.name);
+  const std::size_t unit = std::min(label.find(" ("), label.size());
+  std::string text = label.substr(0, unit) + " " + rounded_text(range.low, 3) + " to " +
+                     rounded_text(range.high, 3);
+  if (unit < label.size()) text += " " + label.substr(unit + 2, label.size() - unit - 3);
+  return text;
+}
+
+// For each output its range, and the factor on which it depends most. The first range is above.
 std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivity& found) {
   std::vector<std::string> all;
   for (const OutputColumn& output : columns.outputs) {
     const Ends range = ends(output.values);
     if (!(range.low <= range.high)) continue;
-    std::string sentence = output_label(output.name) + ": " + rounded_text(range.low, 3) + " to " +
-                           rounded_text(range.high, 3);
+    std::string sentence = &output == columns.outputs.data() ? "" : range_text(output);
     const SensitivityRow* strongest = nullptr;
     for (const SensitivityRow& row : found.indices)
       if (row.output == output.name && std::isfinite(row.indices.total.value) &&
           (strongest == nullptr || row.indices.total.value > strongest->indices.total.value))
         strongest = &row;
     if (strongest != nullptr)
-      sentence += "; most of it follows `" + strongest->factor + "`, with " +
-                  percent_text(strongest->indices.total.value) + " of the variance";
-    all.push_back(sentence + ".");
+      sentence += (sentence.empty() ? "" : ": ") + percent_text(strongest->indices.total.value) +
+                  " of the variance follows `" + strongest->factor + "`";
+    if (!sentence.empty()) all.push_back(sentence + ".");
   }
   return all;
 }
@@ -42,21 +52,28 @@ std::string figure_words(const std::string& name) {
 void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   const Sensitivity& found = shown.found;
   page::Page page(shown.title, "sweep");
-  std::vector<std::string> answer{shown.totals};
-  for (const std::string& sentence : sentences(shown.columns, found)) answer.push_back(sentence);
+  std::vector<std::string> answer = sentences(shown.columns, found);
+  if (shown.columns.outputs.empty()) {
+    answer.push_back(shown.totals);
+  } else {
+    page.headline(range_text(shown.columns.outputs.front()), shown.totals);
+  }
   page.answer(answer);
   page.section("Figures", page::all_figures(folder, figure_words));
   constexpr std::size_t most = 100;
   page::Markup tables;
   if (!found.indices.empty())
-    tables += page::table_of_file("Shares of the variance", sensitivity_table(found),
-                                  "sensitivity.csv", most);
+    tables += page::table_of_file(
+        "Shares of the variance",
+        page::columns_of(sensitivity_table(found),
+                         {"output", "factor", "first_order", "total", "total_low", "total_high"}),
+        "sensitivity.csv", most);
   if (!found.correlations.empty())
     tables +=
         page::table_of_file("Rank correlations", correlation_table(found), "correlation.csv", most);
   page.section("Sensitivity", tables);
-  page.section("Remarks", page::paragraphs(shown.remarks));
-  page.section("What was asked", page::folded("The scenario as written", shown.scenario));
+  page.section("Warnings", page::paragraphs(shown.remarks));
+  page.section("Scenario", page::folded("The scenario as written", shown.scenario));
   page.section("How it was made",
                page::making({.command = "palpate sweep plan SCENARIO.toml --out PLAN\n"
                                         "palpate sweep run PLAN\npalpate sweep merge PLAN"},

@@ -171,7 +171,7 @@ double widening(const geometry::TetMesh& mesh, const Vector& displacement, int a
 }
 
 constexpr const char* not_rigid =
-    "the spring network is not rigid: some nodes can move without stretching a spring; use more "
+    "the springs are not rigid together: some nodes can move without stretching a spring; use more "
     "cells or another mesh kind";
 
 // The static displacement under a load; of `held` degrees of freedom none.

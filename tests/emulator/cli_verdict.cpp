@@ -172,7 +172,7 @@ TEST(LiveVerdict, ALateStandIsIdentifiedByTheProgrammeThatItCarriedOut) {
   // warning.
   const test::Ended planned = identified(test::project_file("scenarios/device_stand.toml"), {});
   ASSERT_EQ(planned.code, 0) << planned.err;
-  EXPECT_TRUE(has(planned.err, "worth fewer than 10 independent ones")) << planned.err;
+  EXPECT_TRUE(has(planned.err, "an effective sample size below 10")) << planned.err;
   const test::Rows wide(
       record::read_csv((live.folder() / "out/device_stand_identified/identified.csv").string()));
   ASSERT_EQ(wide.size(), truth.size());

@@ -292,10 +292,11 @@ TEST(Resolved, a_mesh_that_cannot_carry_the_contact_is_refused) {
     (void)build_block({"tissue.mesh={kind=\"mirrored\",cells=[8,8,4]}"});
     FAIL() << "no error";
   } catch (const MeshError& error) {
-    EXPECT_STREQ(error.what(),
-                 "`resolved` needs 3 cells along the contact radius, and the mesh has 1.6 at the "
-                 "deepest travel of 1.5 mm; give `tissue.mesh` more cells or a `grading`, or set "
-                 "`contact.coupling = \"consistent\"`");
+    EXPECT_STREQ(
+        error.what(),
+        "`resolved` needs 3 cells along the contact radius, and the mesh has 1.6 at the "
+        "largest displacement of 1.5 mm; give `tissue.mesh` more cells or a `grading`, or set "
+        "`contact.coupling = \"consistent\"`");
   }
   // Fine where it begins, coarse where the slide ends.
   EXPECT_THROW(

@@ -397,8 +397,8 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
   }
   const auto found = test::identified(scene, curve, {.profiles = false});
   ASSERT_EQ(found.notes.size(), 1U);
-  EXPECT_EQ(found.notes[0],
-            std::to_string(points) + " points are left out: the way back from the deepest travel");
+  EXPECT_EQ(found.notes[0], std::to_string(points) +
+                                " points are left out: the way back from the largest displacement");
   EXPECT_EQ(found.left_out, static_cast<int>(points));
   EXPECT_EQ(found.x.size(), points);  // up to 2.2 mm, where the deepest stands twice
 }

@@ -53,8 +53,8 @@ void expect_limits_by_theory(const StabilityMap& map) {
       EXPECT_NEAR(ratio, 1.0, 0.02) << what;  // what is promised
   }
   EXPECT_EQ(axes,
-            (std::set<std::string>{"rung", "young_modulus_Pa", "poisson_ratio", "shortest_edge_mm",
-                                   "drag_per_s", "retardation_time_s", "relaxation_time_s",
+            (std::set<std::string>{"model", "young_modulus_Pa", "poisson_ratio", "shortest_edge_mm",
+                                   "damping_per_s", "retardation_time_s", "relaxation_time_s",
                                    "contact_stiffness_N_per_m", "device_damping_N_s_per_m"}));
 }
 

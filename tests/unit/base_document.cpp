@@ -122,6 +122,8 @@ TEST(Document, WhatIsNoTomlIsRefusedAtItsPlace) {
       {"depth = 5 mm\n",
        "f.toml:1:11: a value is followed by more on its line; put quantities in double quotes, as "
        "`\"5 mm\"`, and each key on a line of its own"},
+      {"a = 1\nfriction = 0,35 # of skin\n",
+       "f.toml:2:12: `0,35` has a decimal comma; write it with a point, as `0.35`"},
       {"kind = kuhn\n", "f.toml:1:8: this is not a TOML value; put words in double quotes"},
       {"a = 1\nb = \"\xff\"\n", "f.toml:2:6: this is not UTF-8 text; save the file as UTF-8"},
       {"\xc3", "f.toml:1:1: this is not UTF-8 text; save the file as UTF-8"},

@@ -114,7 +114,11 @@ TEST(Units, EveryRefusalSaysWhatWasWantedAndOneRemedy) {
       {"60 KPA", unit::kPa,
        "wants a pressure, got `60 KPA` with the unknown unit `KPA`; did you mean `60 kPa`?"},
       {"1 kg/m3", unit::density,
-       "wants a density, got `1 kg/m3` with the unknown unit `kg/m3`; did you mean `1 kg/m^3`?"},
+       "wants a density, got `1 kg/m3` with the unknown unit `kg/m3`; write it as `1 kg/m^3`"},
+      {"10 inches/s", unit::mm_per_s,
+       "wants a speed, got `10 inches/s` with the unknown unit `inches/s`; write it as `254 mm/s`"},
+      {"2 N/cm2", unit::kPa,
+       "wants a pressure, got `2 N/cm2` with the unknown unit `N/cm2`; write it as `20 kPa`"},
       {"1 kg/m\u00b3", unit::density,
        "wants a density, got `1 kg/m\u00b3` with the unknown unit `kg/m\u00b3`; did you mean `1 "
        "kg/m^3`?"},

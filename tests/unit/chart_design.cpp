@@ -72,7 +72,7 @@ TEST_F(Design, APressHasEveryGroup) {
     EXPECT_TRUE(names.insert(one.name).second) << one.name;
     groups.insert(one.group);
   }
-  EXPECT_EQ(groups, (std::set<std::string>{"base", "rung x mesh", "rung x coupling", "rings"}))
+  EXPECT_EQ(groups, (std::set<std::string>{"base", "model x mesh", "model x coupling", "rings"}))
       << "integrators do not change this force";
   EXPECT_EQ(find(variants, "hertz"), nullptr) << "as it stands: not twice";
   EXPECT_EQ(find(variants, "layer"), nullptr) << "`auto` takes it: not twice";
@@ -143,7 +143,7 @@ TEST_F(Design, RowsOfLongStepsLieOnThoseOfTheScenario) {
 TEST_F(Design, AUniformTestHasNoContact) {
   for (const Variant& one : design(asked(scenario::creep), 0)) {
     EXPECT_NE(one.group, "rings");
-    EXPECT_NE(one.group, "rung x coupling");
+    EXPECT_NE(one.group, "model x coupling");
   }
 }
 
@@ -244,8 +244,8 @@ TEST_F(Design, Refusals) {
             "`solver.rings` is swept, and `palpate chart` varies `solver.rings` itself; set it to "
             "one value, with `[sweep]` without it");
   EXPECT_EQ(refusal("[[step]]\nkind = \"indent\"\nto = \"1 N\"\n"),
-            "a step to a force ends elsewhere in every variant, and `palpate chart` compares "
-            "forces at equal travels; give a travel");
+            "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
+            "forces at equal travels; give a displacement");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 // A measured variant that costs `cost` us per ms: 1 s of programme, no set-up.
 Measurement measured(const std::string& name, double cost, double error) {
   Measurement one;
-  one.variant = {0, "rung x mesh", name, {"solver.model=" + name}};
+  one.variant = {0, "model x mesh", name, {"solver.model=" + name}};
   one.status = Status::measured;
   one.model = name;
   one.simulated = 1.0;
@@ -78,7 +78,7 @@ TEST(ChartTable, WhatWasNotMeasuredTakesNoPart) {
   EXPECT_EQ(verdict.taken, std::nullopt);
   EXPECT_EQ(verdict.cheapest_within, std::nullopt);
   EXPECT_EQ(verdict.nearest, 3U);
-  EXPECT_NE(chart_text({chart}).find("No variant is within the tolerance of 5 %; nearest is "
+  EXPECT_NE(chart_text({chart}).find("No configuration is within the tolerance of 5 %; nearest is "
                                      "`beaten` (10 %, 200 us per ms)"),
             std::string::npos);
 }
@@ -113,7 +113,7 @@ TEST(ChartTable, AReasonIsSaidOnce) {
   chart.rows[0].note = "no layer";
   const std::string text = chart_text({chart});
   EXPECT_NE(text.find("6 cannot be computed:\n\n- `cheap`: no layer\n"
-                      "- `mesh 0` and 4 more variants (chart.csv): no mesh\n"),
+                      "- `mesh 0` and 4 more configurations (chart.csv): no mesh\n"),
             std::string::npos)
       << text;
 }

@@ -60,7 +60,7 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
             std::vector<std::string>{});
   const record::Table all = table();
   const auto status = column(all, "status");
-  const auto variant = column(all, "variant");
+  const auto variant = column(all, "configuration");
   const auto error = column(all, "greatest_error");
   auto note = column(all, "note");
   for (record::Cell& cell : note)
@@ -92,7 +92,7 @@ TEST_F(ChartVerb, ErrorsAreTheSameTwice) {
 TEST_F(ChartVerb, AHalfSpaceIsForHertzAlone) {
   const Ended ended = chart(half_space, {"--json"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("\"variant\":\"auto\""), std::string::npos);
+  EXPECT_NE(ended.out.find("\"configuration\":\"auto\""), std::string::npos);
   const auto status = column(table(), "status");
   EXPECT_EQ(std::count(status.begin(), status.end(), record::Cell("measured")), 1);
 }
@@ -160,8 +160,8 @@ TEST_F(ChartVerb, InterruptedItGoesOn) {
 
 TEST_F(ChartVerb, Refusals) {
   EXPECT_EQ(chart("[[step]]\nkind = \"indent\"\nto = \"1 N\"\n").err,
-            "small.toml:3:6: a step to a force ends elsewhere in every variant, and `palpate "
-            "chart` compares forces at equal travels; give a travel\n");
+            "small.toml:3:6: a step to a force ends elsewhere in every configuration, and `palpate "
+            "chart` compares forces at equal travels; give a displacement\n");
   EXPECT_EQ(chart(half_space, {"--repeats", "0"}).code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }

@@ -169,7 +169,7 @@ TEST_F(FitVerb, hertz_of_a_machine_s_file) {
   EXPECT_EQ(cell(fitted, "E", "law"),
             record::Cell("F = 4/3 E/(1-nu^2) sqrt(R) (h-h_0)^(3/2), Hertz 1881, Sneddon 1965, "
                          "with a force offset"));
-  EXPECT_EQ(cell(fitted, "E", "left_out"), record::Cell(0.0));
+  EXPECT_EQ(cell(fitted, "E", "excluded"), record::Cell(0.0));
 }
 
 TEST_F(FitVerb, prony_of_two_terms) {

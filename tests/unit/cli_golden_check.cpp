@@ -55,7 +55,7 @@ TEST_F(GoldenCheck, a_folder_of_own_scenarios_stays_as_it_is) {
             (std::set<std::string>{"findings.csv", "fits.csv", "force_indentation.csv"}));
   const Ended checked = golden({"check", "mine"});
   EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
-  EXPECT_TRUE(says(checked, "2 of 2 scenarios give the kept results")) << checked.err;
+  EXPECT_TRUE(says(checked, "2 of 2 scenarios give their baselines")) << checked.err;
   EXPECT_EQ(checked.out, "") << "one line says that all is well";
   EXPECT_EQ(golden({"check", "mine", "--quiet"}).out, "");
   const Ended listed = golden({"list"});
@@ -118,7 +118,7 @@ TEST_F(GoldenCheck, a_scenario_that_cannot_run_is_an_error_and_the_others_are_ch
   const Ended checked = golden({"check", "mine", "--junit", "junit.xml"});
   EXPECT_EQ(checked.code, 2);
   EXPECT_TRUE(says(checked, "mine/press.toml: cannot be checked: ")) << checked.err;
-  EXPECT_NE(checked.err.find("1 of 2 scenarios give the kept results\n"), std::string::npos)
+  EXPECT_NE(checked.err.find("1 of 2 scenarios give their baselines\n"), std::string::npos)
       << checked.err;
   const Ended parsed = run_program({.arguments = {"-c", print_failures, "junit.xml"},
                                     .folder = folder_.path(),
@@ -132,7 +132,7 @@ TEST_F(GoldenCheck, kept_results_are_replaced_only_where_told_and_not_by_machine
   change("mine/soft/scenario.toml", "5 kPa", "6 kPa");
   const Ended again = golden({"add", "mine/soft/scenario.toml"});
   EXPECT_EQ(again.code, 2);
-  EXPECT_TRUE(says(again, "mine/soft/expected: holds the kept result of mine/soft/scenario.toml"))
+  EXPECT_TRUE(says(again, "mine/soft/expected: holds the baseline of mine/soft/scenario.toml"))
       << again.err;
   const Ended machine =
       run_program({.arguments = {"golden", "add", "mine/soft/scenario.toml", "--force"},
@@ -189,11 +189,10 @@ TEST_F(GoldenCheck, kept_results_are_replaced_whole) {
 TEST_F(GoldenCheck, what_is_not_there_is_said) {
   const Ended none = golden({"check", "mine"});
   EXPECT_EQ(none.code, 2);
-  EXPECT_TRUE(says(none, "mine: has no scenario with a kept result")) << none.err;
+  EXPECT_TRUE(says(none, "mine: has no scenario with a baseline")) << none.err;
   const Ended one = golden({"check", "mine/press.toml"});
   EXPECT_EQ(one.code, 2);
-  EXPECT_TRUE(says(one, "has no kept result; write `palpate golden add mine/press.toml`"))
-      << one.err;
+  EXPECT_TRUE(says(one, "has no baseline; write `palpate golden add mine/press.toml`")) << one.err;
 }
 
 }  // namespace

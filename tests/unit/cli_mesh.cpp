@@ -61,9 +61,10 @@ TEST_F(MeshVerb, TellsTheQualityOfAReadyMesh) {
   auto box = quality({"box.node", "--unit", "m"});
   EXPECT_EQ(box["nodes"], 200);
   EXPECT_EQ(box["tetrahedra"], 734);
-  EXPECT_EQ(box["skin_triangles"], 2 * box["skin_vertices"] - 4);     // Euler, a body without holes
+  EXPECT_EQ(box["surface_triangles"],
+            2 * box["surface_vertices"] - 4);                         // Euler, a body without holes
   EXPECT_NEAR(box["volume_mm3"], 108e3, 1e-6);                        // 60 x 60 x 30; rounding
-  EXPECT_NEAR(box["skin_area_mm2"], 14.4e3, 1e-6);                    // rounding
+  EXPECT_NEAR(box["surface_area_mm2"], 14.4e3, 1e-6);                 // rounding
   EXPECT_NEAR(box["highest_z_mm"] - box["lowest_z_mm"], 30.0, 1e-9);  // rounding
   EXPECT_EQ(box["regions"], 1);
   EXPECT_EQ(box["region_0_tetrahedra"], 734);
@@ -130,8 +131,8 @@ TEST_F(MeshVerb, MeshesAScenarioAsARunWould) {
   auto report = quality({cube});
   EXPECT_EQ(report["nodes"], 140);
   EXPECT_EQ(report["tetrahedra"], 432);
-  EXPECT_EQ(report["skin_vertices"], 110);
-  EXPECT_EQ(report["skin_triangles"], 216);
+  EXPECT_EQ(report["surface_vertices"], 110);
+  EXPECT_EQ(report["surface_triangles"], 216);
   EXPECT_EQ(report["springs"], 679);
   const std::string limit = rounded_text(report["stable_step_ms"]) + " ms (2 / omega_max)";
   EXPECT_NE(palpate(folder_.path(), {"explain", cube}).out.find(limit), std::string::npos) << limit;

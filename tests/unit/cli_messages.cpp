@@ -168,7 +168,8 @@ TEST_F(Messages, AWordThatIsNoKeyIsFoundInTheManualAndTheTissues) {
   EXPECT_NE(muscle.find("young_modulus = { value = \"6 kPa\""), std::string::npos) << muscle;
   EXPECT_EQ(muscle.find("[bone]"), std::string::npos) << muscle;
   const std::string travel = palpate("explain travel").out;
-  EXPECT_NE(travel.find("\n  step.to: Travel below the undeformed surface"), std::string::npos)
+  EXPECT_NE(travel.find("\n  step.to: Displacement below the undeformed surface"),
+            std::string::npos)
       << travel;
   EXPECT_NE(palpate("complete run a --set finger.material=").out.find("finger.material=rigid\t"),
             std::string::npos);

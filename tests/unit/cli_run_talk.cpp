@@ -46,31 +46,61 @@ TEST_F(RunTalk, what_all_cases_share_is_said_once) {
   EXPECT_NE(said.find("`10 kPa`, and so in 2 more cases: " + remark), std::string::npos) << said;
 }
 
+// The exit code of the program, and what it wrote to a terminal as stderr. It gets SIGTERM as soon
+// as it has written `until`.
+struct Seen {
+  int code = 0;
+  std::string seen = {};
+};
+Seen on_terminal(const std::vector<std::string>& arguments, const fs::path& folder,
+                 const std::string& until = "never") {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  EXPECT_GE(terminal, 0);
+  EXPECT_EQ(::grantpt(terminal), 0);
+  EXPECT_EQ(::unlockpt(terminal), 0);
+  const std::string name = ::ptsname(terminal);
+  Running running({.arguments = arguments, .folder = folder, .before = [&] {
+                     ::setenv("TERM", "xterm", 1);
+                     ::unsetenv("NO_COLOR");
+                     ::dup2(::open(name.c_str(), O_RDWR | O_NOCTTY), 2);
+                   }});
+  Seen all;
+  std::array<char, 4096> part{};
+  // It reads nothing once the program has closed the other side.
+  for (ssize_t got = 0; (got = ::read(terminal, part.data(), part.size())) > 0;) {
+    all.seen.append(part.data(), static_cast<std::size_t>(got));
+    if (all.seen.find(until) != std::string::npos) running.send(SIGTERM);  // many times
+  }
+  ::close(terminal);
+  all.code = running.wait().code;
+  return all;
+}
+
 // On a terminal a press of seconds says which mesh it is at, and how deep.
 TEST_F(RunTalk, a_long_press_says_where_it_is) {
   write_file(folder_ / "press.toml",
              "[solver]\nmodel = \"solid\"\ntolerance = 0.005\n[tissue]\nviscosity = "
              "\"none\"\n[finger]\nmaterial = "
              "\"rigid\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n");
-  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
-  ASSERT_GE(terminal, 0);
-  ASSERT_EQ(::grantpt(terminal), 0);
-  ASSERT_EQ(::unlockpt(terminal), 0);
-  const std::string name = ::ptsname(terminal);
-  Running running({.arguments = {"run", "press.toml"}, .folder = folder_.path(), .before = [&] {
-                     ::dup2(::open(name.c_str(), O_RDWR | O_NOCTTY), 2);
-                   }});
-  std::string seen;
-  std::array<char, 4096> part{};
-  // It reads nothing once the program has closed the other side.
-  for (ssize_t got = 0; (got = ::read(terminal, part.data(), part.size())) > 0;) {
-    seen.append(part.data(), static_cast<std::size_t>(got));
-    if (seen.find(" nodes, press to ") != std::string::npos) running.send(SIGTERM);  // many times
-  }
-  ::close(terminal);
-  EXPECT_EQ(running.wait().code, 130);
-  EXPECT_NE(seen.find("press: 0 of 1 case, "), std::string::npos) << seen;
+  const auto [code, seen] = on_terminal({"run", "press.toml"}, folder_.path(), " nodes, press to ");
+  EXPECT_EQ(code, 130);
+  EXPECT_NE(seen.find("[....................] 0/1, press, "), std::string::npos) << seen;
   EXPECT_NE(seen.find(" nodes, press to "), std::string::npos) << seen;
+}
+
+// A person is told the next step of the path, and sees errors in red; a file and `--no-color` see
+// neither.
+TEST_F(RunTalk, a_terminal_gets_the_next_step_and_colours) {
+  write_file(folder_ / "my press.toml", read_file(folder_ / "press.toml"));
+  const auto ended = on_terminal({"run", "my press.toml"}, folder_.path());
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_NE(ended.seen.find("\nnext: palpate open 'out/my press'"), std::string::npos)
+      << ended.seen;
+  EXPECT_EQ(run({"--force"}).err.find("next: "), std::string::npos);
+  const auto red = on_terminal({"run", "none.toml"}, folder_.path());
+  EXPECT_TRUE(red.seen.starts_with("\x1b[31mnone.toml")) << red.seen;
+  const auto plain = on_terminal({"--no-color", "run", "none.toml"}, folder_.path());
+  EXPECT_TRUE(plain.seen.starts_with("none.toml")) << plain.seen;
 }
 
 TEST_F(RunTalk, quiet_is_silent) {

@@ -41,12 +41,12 @@ TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
   EXPECT_EQ(faults_of_pages(result, {"report.html"}, Scheme::light), std::vector<std::string>{});
   const record::Table limits = record::read_csv(result / "stability.csv");
   EXPECT_EQ(limits.columns,
-            (std::vector<std::string>{"rung", "volume", "integrator", "damping", "axis", "value",
+            (std::vector<std::string>{"model", "volume", "integrator", "damping", "axis", "value",
                                       "limit_us", "theory_us", "ratio", "failure", "note"}));
   EXPECT_GT(limits.rows.size(), 140U);
   const record::Table failures = record::read_csv(result / "failures.csv");
   EXPECT_EQ(failures.columns,
-            (std::vector<std::string>{"failure", "rung", "integrator", "setting", "setting_unit",
+            (std::vector<std::string>{"failure", "model", "integrator", "setting", "setting_unit",
                                       "measure", "measured", "theory", "seen", "note"}));
   // A finished map is not replaced unless that is asked for.
   const Ended again = map({"--set", "finger.radius=8 mm"});

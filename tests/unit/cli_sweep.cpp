@@ -27,12 +27,6 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   EXPECT_EQ(merge.err, "out/s_sweep/merged: 6 of 6 cases completed\n");
   EXPECT_EQ(names_in(folder_ / "out/s_sweep/merged"),
             (std::set<std::string>{"contents.sha256", "merged.json", "report.html",
-                                   "response_force_indentation_logarithmic_a_N.csv",
-                                   "response_force_indentation_logarithmic_a_N.gp",
-                                   "response_force_indentation_logarithmic_a_N.svg",
-                                   "response_force_indentation_logarithmic_b_N.csv",
-                                   "response_force_indentation_logarithmic_b_N.gp",
-                                   "response_force_indentation_logarithmic_b_N.svg",
                                    "response_peak_force_N.csv", "response_peak_force_N.gp",
                                    "response_peak_force_N.svg", "results.csv", "sensitivity.csv",
                                    "sensitivity.gp", "sensitivity.svg"}));
@@ -97,9 +91,8 @@ TEST_F(SweepVerb, MissingCasesAreRows) {
   const Ended merge = sweep({"merge", "out/s_sweep"});
   EXPECT_EQ(merge.code, 7);
   EXPECT_EQ(merge.err,
-            "warning: sensitivity of `peak_force_N`, `force_indentation_logarithmic_a_N`, "
-            "`force_indentation_logarithmic_b_N`: 4 of 6 cases have no value, and the indices of a "
-            "grid need all; run what is missing, narrow the ranges to where cases complete, "
+            "warning: sensitivity of `peak_force_N`: 4 of 6 cases have no value, and the indices "
+            "of a grid need all; run what is missing, narrow the ranges to where cases complete, "
             "or take `design = \"saltelli\"`\n"
             "out/s_sweep/merged: 2 of 6 cases completed, 4 missing (numbers 1,3-4,6); "
             "`palpate sweep run` runs them\n");

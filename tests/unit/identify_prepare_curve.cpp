@@ -66,7 +66,7 @@ TEST(PrepareCurve, SensorsNeedTheirCurve) {
                 .find("`--unknown force_offset` is added to a force"),
             std::string::npos);
   EXPECT_NE(refused(relax, relaxes, "contact_point=0..1 mm")
-                .find("`--unknown contact_point` shifts a travel"),
+                .find("`--unknown contact_point` shifts a displacement"),
             std::string::npos);
 }
 

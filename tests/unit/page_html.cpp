@@ -38,10 +38,33 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
         "<td data-column=\"force\" class=\"number\">1.235</td>",
         "<td data-column=\"force\">–</td>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(table("n", {{"a", "b"}, {{"x", INFINITY}}}).html().find("inf"), std::string::npos);
   const record::Table long_one{{"n"}, {{1.0}, {2.0}, {3.0}}};
   const std::string cut = table_of_file("n", long_one, "n.csv", 2).html();
   EXPECT_NE(cut.find("The first 2 of 3 rows"), std::string::npos);
   EXPECT_EQ(cut.find(">3<"), std::string::npos);
+}
+
+// Keys, models and parameters are not words of a sentence.
+TEST(Html, NamesKeepTheirCaseAtTheStartOfASentence) {
+  EXPECT_EQ(paragraphs({"tissue.young_modulus 60 kPa"}).html(),
+            "<p>tissue.young_modulus 60 kPa.</p>");
+  EXPECT_EQ(paragraphs({"coupled_springs is taken"}).html(), "<p>coupled_springs is taken.</p>");
+  EXPECT_EQ(paragraphs({"a, logarithmic fit"}).html(), "<p>a, logarithmic fit.</p>");
+  EXPECT_EQ(paragraphs({"a press is deep."}).html(), "<p>A press is deep.</p>");
+  EXPECT_EQ(paragraphs({"done."}).html(), "<p>Done.</p>");
+}
+
+// The dark inverts lines and texts, but no colours that stand for numbers.
+TEST(Page, ColoursOfNumbersAreNotInverted) {
+  const test::TemporaryFolder folder;
+  const std::string picture = (folder.path() / "a.svg").string();
+  EXPECT_EQ(class_of(picture), "plot");
+  test::write_file(folder.path() / "a.gp", "set palette defined (0 '#440154')\n");
+  EXPECT_EQ(class_of(picture), "white");
+  const std::string css = style();
+  EXPECT_EQ(css.find(".white svg { filter"), std::string::npos);
+  EXPECT_NE(css.find(".plot svg { filter: invert("), std::string::npos);
 }
 
 TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {

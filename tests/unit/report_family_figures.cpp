@@ -87,8 +87,11 @@ TEST(FamilyFigures, RegressionsAreDrawnWhereTheyAreAskedFor) {
     return report::family_figures(family, {record}, {{"test", "force_indentation", fit}}).at(0);
   };
   EXPECT_TRUE(drawn("").series.at(0).fits.empty());
+  // A modulus read off the effective depth of a mesh would be wrong; fits are of it, though.
+  EXPECT_EQ(drawn("").series.at(0).x_column, "travel_mm");
   const auto asked = drawn("[output]\nregression = \"logarithmic\"\n");
   EXPECT_EQ(asked.series.at(0).fits.size(), 1U);
+  EXPECT_EQ(asked.series.at(0).x_column, "indentation_mm");
   EXPECT_EQ(asked.fit_label, "a + b ln h, R² 0.67");
 }
 
@@ -97,7 +100,7 @@ TEST(FamilyFigures, DecadesStandOnLogarithmicAxesBesideTheLinearOnes) {
     const auto family = scenario::parse("schema = 1\n" + indent, "test.toml", {});
     std::vector<record::CaseRecord> records(2);
     for (auto& record : records) record.contact.resize(1);
-    for (auto& record : records) record.contact[0].indentation = 3e-3;
+    for (auto& record : records) record.contact[0].travel = 3e-3;
     records[0].contact[0].force = 1.0;
     records[1].contact[0].force = ratio;
     return report::family_figures(family, records, {});

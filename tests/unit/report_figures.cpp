@@ -64,7 +64,7 @@ plot::Figure force_figure(const std::string& folder) {
     series.push_back(each);
   }
   write_atomically(folder + "/force_indentation.csv", record::csv_text(table));
-  plot::Figure figure = figure_force_indentation(series);
+  plot::Figure figure = figure_force_depth(series);
   figure.fit_label = "a + b ln h";
   return figure;
 }
@@ -110,7 +110,7 @@ TEST_F(Gnuplot, DrawsForceAgainstIndentation) {
   EXPECT_EQ(drawing.files, (std::vector<std::string>{"figure_force_indentation.gp",
                                                      "figure_force_indentation.svg"}));
   const std::string svg = read("figure_force_indentation.svg");
-  for (const char* text : {">skin<", ">upper_leg<", ">bone × 0.1<", ">Indentation h (mm)<",
+  for (const char* text : {">skin<", ">upper_leg<", ">bone × 0.1<", ">Effective depth h (mm)<",
                            ">Force F (N)<", ">a + b ln h<"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   EXPECT_EQ(count(svg, "stroke-dasharray"), 6U);  // five fits and their line in the legend
@@ -172,8 +172,7 @@ TEST_F(Gnuplot, ReadsTheFileOfManyCasesOnce) {
     }
     table.rows.push_back({"not drawn", 1.0, 1.0, 1e6});
     write_atomically(folder_ + "/force_indentation.csv", record::csv_text(table));
-    const plot::Drawing drawing =
-        plot::draw(plot::sheet_of(figure_force_indentation(series)), folder_);
+    const plot::Drawing drawing = plot::draw(plot::sheet_of(figure_force_depth(series)), folder_);
     EXPECT_EQ(drawing.warning, "");
     return read("figure_force_indentation.svg");
   };

@@ -294,11 +294,11 @@ TEST(Refusals, OneMistakeIsOneMessage) {
       refusal("[[step]]\nkind = \"indent\"\nto = \"1e9 mm\"\n[[step]]\nkind = \"hold\"\n"),
       "press.toml:3:6: `to` of 1e+09 mm is deeper than the finger's radius of 11 mm, where no "
       "Hertz contact is left; press less deep");
-  EXPECT_EQ(
-      refusal(press + "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = "
-                      "\"retract\"\nto = \"1.5 mm\"\n"),
-      "press.toml:6:6: `indent` goes to 1 mm, which is not below the travel of 2 mm before it; "
-      "use `retract` to go back");
+  EXPECT_EQ(refusal(press + "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = "
+                            "\"retract\"\nto = \"1.5 mm\"\n"),
+            "press.toml:6:6: `indent` goes to 1 mm, which is not below the displacement of 2 mm "
+            "before it; "
+            "use `retract` to go back");
 }
 
 }  // namespace

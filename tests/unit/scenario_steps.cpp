@@ -12,16 +12,18 @@ TEST(Steps, GoOnFromWhereTheLastOneEnded) {
   EXPECT_EQ(refusal(step("indent", "2 mm") + step("indent", "3 mm") + step("retract", "1 mm") +
                     step("indent", "2 mm") + step("retract", "-1 mm")),
             "accepted");
+  EXPECT_EQ(refusal(step("indent", "2 mm") + step("indent", "2 mm")),
+            "press.toml:6:6: `indent` goes to 2 mm, which is not below the displacement of 2 mm "
+            "before it; "
+            "use `retract` to go back");
   EXPECT_EQ(
-      refusal(step("indent", "2 mm") + step("indent", "2 mm")),
-      "press.toml:6:6: `indent` goes to 2 mm, which is not below the travel of 2 mm before it; "
-      "use `retract` to go back");
-  EXPECT_EQ(refusal(step("indent", "2 mm") + step("retract", "3 mm")),
-            "press.toml:6:6: `retract` goes to 3 mm, which is not above the travel of 2 mm before "
-            "it; use `indent` to go deeper");
-  EXPECT_EQ(refusal(step("retract", "0 mm")),
-            "press.toml:3:6: `retract` goes to 0 mm, which is not above the travel of 0 mm before "
-            "it; use `indent` to go deeper");
+      refusal(step("indent", "2 mm") + step("retract", "3 mm")),
+      "press.toml:6:6: `retract` goes to 3 mm, which is not above the displacement of 2 mm before "
+      "it; use `indent` to go deeper");
+  EXPECT_EQ(
+      refusal(step("retract", "0 mm")),
+      "press.toml:3:6: `retract` goes to 0 mm, which is not above the displacement of 0 mm before "
+      "it; use `indent` to go deeper");
 }
 
 TEST(Steps, AStepToAForceLeavesTheTravelOpen) {

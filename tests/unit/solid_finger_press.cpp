@@ -78,7 +78,7 @@ TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
   touch(order, Vec3(0.02, 0.02, 0.005));
   FingerPress folds(order);
   EXPECT_FALSE(folds.at_travel(4e-3));
-  EXPECT_NE(folds.reason().find("no equilibrium beyond a travel of 3.6"), std::string::npos)
+  EXPECT_NE(folds.reason().find("no equilibrium beyond a displacement of 3.6"), std::string::npos)
       << folds.reason();
   order.deepest = 3e-3;
   FingerPress holds(order);

@@ -80,6 +80,27 @@ TEST(SweepColumns, TakeTheUsualOutputsThatAreWholeAndVary) {
   EXPECT_TRUE(columns.notes.empty());
 }
 
+// Coefficients of a fit are no response that anyone asked for; the displacement is one where the
+// force is given, and otherwise what was given.
+TEST(SweepColumns, AreForcesAndModuliOrTheDisplacementUnderAForce) {
+  const auto with = [](const char* column, double first) {
+    record::Table table = results();
+    table.columns.back() = column;
+    for (std::size_t i = 0; i < 4; ++i)
+      table.rows[i].back() = first + 0.1 * static_cast<double>(i + 1);
+    return table;
+  };
+  const auto usual = [](const record::Table& table) {
+    return names(sweep_columns(choice(), table));
+  };
+  EXPECT_EQ(usual(with("force_indentation_logarithmic_a_N", 1.0)), Names{"peak_force_N"});
+  EXPECT_EQ(usual(with("secant_modulus_kPa", 1.0)), (Names{"peak_force_N", "secant_modulus_kPa"}));
+  record::Table table = with("peak_travel_mm", 1.0);
+  EXPECT_EQ(usual(table), Names{"peak_force_N"});
+  for (auto& row : table.rows) row[7] = 2.0;  // the force is the same in all cases
+  EXPECT_EQ(usual(table), Names{"peak_travel_mm"});
+}
+
 TEST(SweepColumns, LeaveOutWhatACompletedCaseLacks) {
   record::Table table = results();
   const auto column = as_index(table.find("force_at_2_mm_N"));

@@ -227,7 +227,7 @@ TEST_F(Plans, the_first_case_that_cannot_be_is_named) {
       });
   const std::string said = planning(text);
   EXPECT_TRUE(said.starts_with("s.toml:")) << said;
-  EXPECT_NE(said.find("`retract` goes to 1.5 mm, which is not above the travel of 1 mm"),
+  EXPECT_NE(said.find("`retract` goes to 1.5 mm, which is not above the displacement of 1 mm"),
             std::string::npos)
       << said;
   EXPECT_TRUE(said.ends_with(
