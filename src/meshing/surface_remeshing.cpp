@@ -22,16 +22,17 @@ constexpr ChildLimits remeshing_limits{120.0,
 constexpr double crease_degrees = 40.0;                            // as for normals and curvatures
 constexpr double most_volume = 0.005;                              // relative change
 constexpr double needle_altitude = 1.0 / 15.0;                     // altitude over longest edge
-constexpr double shorter = 0.75;                                   // the next spacing to try
+constexpr double shorter = 0.5;                                    // the next spacing to try
+
+// Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
+// the volume that it would take at the spacing itself.
+constexpr double even_part = 0.4;
+constexpr double shortest_even = 1.0 / 8.0;  // of the spacing; finer ones take minutes
 
 // At an edge of less than five degrees even triangles of any size are longer than the body is
 // thick, and cut each other. Measured on wedges: 10 degrees take two tries, 6 take five, 4 have no
 // end.
 constexpr double folded_cosine = -0.9962;  // of the two normals
-
-// Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
-// the volume that it would take at the spacing itself.
-constexpr double even_part = 0.4;
 
 std::string packed(const Surface& surface) {
   std::string bytes;
@@ -65,12 +66,15 @@ double longest_edge(const Surface& surface, const std::array<int, 3>& triangle) 
   return longest;
 }
 
-// The largest distance of the vertices of `from`, and of its triangles' centres and middles of
-// edges, from the surface in the tree, m.
-double farthest(const Surface& from, const geometry::BoxTree& to) {
+// The largest distance, m, of the vertices of `from`, and of its triangles' centres and middles of
+// edges, from the surface in the tree. Adds those that are farther than `limit` to `far`.
+double farthest(const Surface& from, const geometry::BoxTree& to, double limit,
+                std::vector<Vec3>& far) {
   double most = 0.0;
   const auto look = [&](const Vec3& point) {
-    most = std::max(most, to.nearest(point).distance_squared);
+    const double squared = to.nearest(point).distance_squared;
+    if (squared > limit * limit) far.push_back(point);
+    most = std::max(most, squared);
   };
   for (const Vec3& vertex : from.vertices) look(vertex);
   for (const auto& [a, b, c] : from.triangles) {
@@ -120,16 +124,56 @@ void flatten_sides(const Surface& original, double spacing, Surface& surface) {
     }
 }
 
-std::optional<Surface> attempt(const Surface& surface, double spacing, bool uneven) {
-  const ChildResult result = run_in_child(
-      [&] {
-        return packed(cgal_library::collapsed(
-            uneven ? cgal_library::even(surface, even_part * spacing, crease_degrees) : surface,
-            spacing));
-      },
-      remeshing_limits);
-  return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
-}
+// Edges of about `spacing`, m, at the vertices of `surface`, which is in the tree.
+struct Attempt {
+  const Surface& surface;
+  const geometry::BoxTree& tree;
+  std::vector<double> spacing;
+  bool uneven = false;  // even triangles are collapsed, in place of those of `surface`
+
+  [[nodiscard]] std::size_t nearest_vertex(const Vec3& place) const {
+    const geometry::Near near = tree.nearest(place);
+    Eigen::Index corner = 0;
+    near.weights.maxCoeff(&corner);
+    return as_index(surface.triangles[as_index(near.triangle)][static_cast<std::size_t>(corner)]);
+  }
+
+  [[nodiscard]] std::optional<Surface> made() const {
+    const ChildResult result = run_in_child(
+        [&] {
+          if (!uneven) return packed(cgal_library::collapsed(surface, spacing));
+          const auto [least, most] = std::minmax_element(spacing.begin(), spacing.end());
+          const double edge = even_part * std::max(*least, *most * shortest_even);
+          const Surface even = cgal_library::even(surface, edge, crease_degrees);
+          std::vector<double> of_even;
+          for (const Vec3& vertex : even.vertices)
+            of_even.push_back(spacing[nearest_vertex(vertex)]);
+          return packed(cgal_library::collapsed(even, of_even));
+        },
+        remeshing_limits);
+    return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
+  }
+
+  // Takes shorter edges up to one edge from these places, or from others as near to them.
+  void shorten(std::span<const Vec3> places) {
+    std::vector<char> marks(spacing.size(), 0);
+    std::vector<geometry::Near> found;
+    for (const Vec3& place : places) {
+      const std::size_t nearest = nearest_vertex(place);
+      if (marks[nearest] != 0) continue;
+      tree.within(surface.vertices[nearest], spacing[nearest], found);
+      for (const geometry::Near& near : found)
+        for (const int corner : surface.triangles[as_index(near.triangle)])
+          marks[as_index(corner)] = 1;
+    }
+    for (std::size_t v = 0; v < spacing.size(); ++v)
+      if (marks[v] != 0) spacing[v] *= shorter;
+  }
+
+  void shorten() {
+    for (double& edge : spacing) edge *= shorter;
+  }
+};
 
 bool has_sharp_edge(const Surface& surface) {
   const geometry::Neighbours neighbours(surface);
@@ -138,6 +182,12 @@ bool has_sharp_edge(const Surface& surface) {
     for (const int other : neighbours.across(t))
       if (other > t && normal(t).dot(normal(other)) < folded_cosine) return true;
   return false;
+}
+
+bool is_needle(const Surface& surface, std::size_t t) {
+  const double longest = longest_edge(surface, surface.triangles[t]);
+  return geometry::twice_area(surface, static_cast<int>(t)).norm() <
+         needle_altitude * longest * longest;
 }
 
 bool closed(const Surface& surface) {
@@ -153,12 +203,8 @@ bool closed(const Surface& surface) {
 
 std::size_t count_needles(const Surface& surface) {
   std::size_t count = 0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const double longest = longest_edge(surface, surface.triangles[t]);
-    if (geometry::twice_area(surface, static_cast<int>(t)).norm() <
-        needle_altitude * longest * longest)
-      ++count;
-  }
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    if (is_needle(surface, t)) ++count;
   return count;
 }
 
@@ -180,24 +226,45 @@ double remeshing_limit(const Surface& surface, double spacing) {
 }
 
 std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {
-  if (has_sharp_edge(surface)) return std::nullopt;
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
-  const bool uneven = count_needles(surface) > 0;
+  const bool no_needles = looser <= 1.0 && !has_sharp_edge(surface);
   const geometry::BoxTree original(surface);
-  constexpr int most_tries = 8;  // down to an eighth of the spacing
-  for (int i = 0; i < most_tries; ++i, spacing *= shorter) {
-    std::optional<Surface> tried = attempt(surface, spacing, uneven);
-    if (!tried || tried->triangles.empty()) continue;
+  Attempt attempt{surface, original, std::vector<double>(surface.vertices.size(), spacing),
+                  no_needles && count_needles(surface) > 0};
+  const std::size_t given = surface.triangles.size();
+  const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
+  constexpr int most_tries = 10;
+  for (int i = 0; i < most_tries; ++i) {
+    std::optional<Surface> tried = attempt.made();
+    if (!tried || tried->triangles.empty()) {
+      attempt.shorten();
+      continue;
+    }
     flatten_sides(surface, spacing, *tried);
-    const std::size_t given = surface.triangles.size();
-    if (tried->triangles.size() >= (uneven ? std::max<std::size_t>(2 * given, 2000) : given))
-      return std::nullopt;
-    if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) > looser * most_volume) continue;
-    if (looser <= 1.0 && count_needles(*tried) > 0) continue;
-    const double distance =
-        std::max(farthest(*tried, original), farthest(surface, geometry::BoxTree(*tried)));
-    if (distance <= limit && closed(*tried)) return Remeshed{std::move(*tried), distance};
+    if (tried->triangles.size() >= most) return std::nullopt;
+    std::vector<Vec3> wrong;
+    double distance = farthest(*tried, original, limit, wrong);
+    distance = std::max(distance, farthest(surface, geometry::BoxTree(*tried), limit, wrong));
+    const auto add = [&](int t) {
+      Vec3 sum = Vec3::Zero();
+      for (const int v : tried->triangles[as_index(t)]) sum += tried->vertices[as_index(v)];
+      wrong.push_back(sum / 3.0);
+    };
+    for (const auto& [one, other] : cgal_library::self_intersections(*tried)) {
+      add(one);
+      add(other);
+    }
+    for (std::size_t t = 0; no_needles && t < tried->triangles.size(); ++t)
+      if (is_needle(*tried, t)) add(static_cast<int>(t));
+    if (!wrong.empty()) {
+      attempt.shorten(wrong);
+      continue;
+    }
+    if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) <= looser * most_volume &&
+        closed(*tried))
+      return Remeshed{std::move(*tried), distance};
+    attempt.shorten();
   }
   return std::nullopt;
 }

@@ -171,10 +171,11 @@ class SurfaceChecker {
   }
 
   void crossings() const {
-    const auto pair = cgal_library::self_intersection(surface_);
-    if (pair)
-      fail("faces " + std::to_string((*pair)[0]) + " and " + std::to_string((*pair)[1]) +
-           " cut, touch or overlap each other" + place(corners((*pair)[0])[0]) +
+    const auto pairs = cgal_library::self_intersections(surface_);
+    if (!pairs.empty())
+      fail("faces " + std::to_string(pairs.front()[0]) + " and " +
+           std::to_string(pairs.front()[1]) + " cut, touch or overlap each other" +
+           place(corners(pairs.front()[0])[0]) +
            "; remove one of them or move their vertices apart");
   }
 

@@ -317,8 +317,11 @@ def measured(command, seconds):
               'print("%d %f %d" % (done.returncode, use.ru_utime + use.ru_stime, use.ru_maxrss))\n')
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
-    done = subprocess.run([sys.executable, '-c', script] + command, capture_output=True, text=True,
-                          preexec_fn=limit)
+    try:
+        done = subprocess.run([sys.executable, '-c', script] + command, capture_output=True, text=True,
+                              preexec_fn=limit, start_new_session=True, timeout=4 * seconds)
+    except subprocess.TimeoutExpired:
+        return -9, '', 'took too long', float(seconds), 0.0
     lines_out = done.stdout.strip().split('\n')
     try:
         code, time, memory = lines_out[-1].split()
