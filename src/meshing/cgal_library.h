@@ -26,9 +26,9 @@ namespace palpate::meshing::cgal_library {
 // others: call them in a child process only. The same arguments give the same bits.
 
 // Collapses the shortest edge until none is shorter than about 0.7 of the `spacing` of its ends (m,
-// of each vertex). Each new vertex preserves the volume and is near the planes around it, so that it stays on creases and in corners
-// (Lindstrom & Turk 1998). A collapse that turns a triangle by more than 60 degrees or makes a
-// needle is left out.
+// of each vertex). Each new vertex preserves the volume and is near the planes around it, so that
+// it stays on creases and in corners (Lindstrom & Turk 1998). A collapse that turns a triangle by
+// more than 60 degrees or makes a needle is left out.
 [[nodiscard]] geometry::Surface collapsed(const geometry::Surface& surface,
                                           std::span<const double> spacing);
 
