@@ -68,6 +68,10 @@ class SurfaceChecker {
     const double size = (high - low).maxCoeff();
     if (!(size >= smallest && size <= largest))
       fail("is " + rounded_text(size) + " m long, but wants 1e-6 m to 10 m; " + unit_guess(size));
+    for (int axis = 0; axis < 3; ++axis)
+      if (low[axis] == high[axis])
+        fail(std::string("is a flat sheet: all its vertices have the same ") + "xyz"[axis] +
+             "; give the whole surface of a body, around its inside");
   }
 
   void shapes() const {
