@@ -234,7 +234,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
                   no_needles && count_needles(surface) > 0};
   const std::size_t given = surface.triangles.size();
   const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
-  constexpr int most_tries = 10;
+  constexpr int most_tries = 16;
   for (int i = 0; i < most_tries; ++i) {
     std::optional<Surface> tried = attempt.made();
     if (!tried || tried->triangles.empty()) {
