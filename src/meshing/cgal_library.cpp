@@ -117,22 +117,17 @@ struct Shapes {
   }
 };
 
-// The squared length of an edge over the shorter of the spacings of its ends, m.
-struct LengthOverSpacing {
+// The squared length (m2) that an edge would have at the largest spacing, if lengths are in the
+// proportion of the shorter spacing at its ends.
+struct LengthForSpacing {
   std::span<const double> spacing;  // m, of each vertex
+  double largest;                   // m
 
   template <class Profile>
   boost::optional<double> operator()(const Profile& profile, const boost::optional<Point>&) const {
     const double least = std::min(spacing[profile.v0().idx()], spacing[profile.v1().idx()]);
-    return CGAL::squared_distance(profile.p0(), profile.p1()) / (least * least);
-  }
-};
-
-struct LongEnough {
-  // With no edge below 0.7 of it, the mean edge is about the spacing: measured on ellipsoids.
-  template <class Profile>
-  bool operator()(double cost, const Profile&, std::size_t, std::size_t) const {
-    return cost > 0.7 * 0.7;
+    const double share = least / largest;
+    return CGAL::squared_distance(profile.p0(), profile.p1()) / (share * share);
   }
 };
 
@@ -191,10 +186,14 @@ std::optional<std::vector<std::array<int, 3>>> triangulated(
 
 geometry::Surface collapsed(const geometry::Surface& surface, std::span<const double> spacing) {
   Mesh mesh = filled(surface);
-  simplification::edge_collapse(mesh, LongEnough{},
-                                CGAL::parameters::get_cost(LengthOverSpacing{spacing})
-                                    .get_placement(simplification::LindstromTurk_placement<Mesh>())
-                                    .filter(Shapes()));
+  // With no edge below 0.7 of it, the mean edge is about the spacing: measured on ellipsoids.
+  const double largest = *std::max_element(spacing.begin(), spacing.end());
+  const double least_square = (0.7 * largest) * (0.7 * largest);
+  simplification::edge_collapse(
+      mesh, [&](double square, const auto&, auto, auto) { return square > least_square; },
+      CGAL::parameters::get_cost(LengthForSpacing{spacing, largest})
+          .get_placement(simplification::LindstromTurk_placement<Mesh>())
+          .filter(Shapes()));
   return taken(mesh);
 }
 

@@ -22,17 +22,19 @@ constexpr ChildLimits remeshing_limits{120.0,
 constexpr double crease_degrees = 40.0;                            // as for normals and curvatures
 constexpr double most_volume = 0.005;                              // relative change
 constexpr double needle_altitude = 1.0 / 15.0;                     // altitude over longest edge
-constexpr double shorter = 0.5;                                    // the next spacing to try
+constexpr double shorter = 0.75;                                   // the next spacing to try
+constexpr double shorter_there = 0.5;                              // the same of some vertices
 
 // Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
 // the volume that it would take at the spacing itself.
 constexpr double even_part = 0.4;
-constexpr double shortest_even = 1.0 / 8.0;  // of the spacing; finer ones take minutes
 
 // At an edge of less than five degrees even triangles of any size are longer than the body is
 // thick, and cut each other. Measured on wedges: 10 degrees take two tries, 6 take five, 4 have no
-// end.
+// end. Surfaces with such an edge are meshed as they are, but for large ones, whose triangles
+// become shorter where they would cross.
 constexpr double folded_cosine = -0.9962;  // of the two normals
+constexpr std::size_t large = 20000;       // triangles
 
 std::string packed(const Surface& surface) {
   std::string bytes;
@@ -129,7 +131,7 @@ struct Attempt {
   const Surface& surface;
   const geometry::BoxTree& tree;
   std::vector<double> spacing;
-  bool uneven = false;  // even triangles are collapsed, in place of those of `surface`
+  bool uneven = false;  // even triangles are collapsed, all to the first spacing
 
   [[nodiscard]] std::size_t nearest_vertex(const Vec3& place) const {
     const geometry::Near near = tree.nearest(place);
@@ -142,13 +144,9 @@ struct Attempt {
     const ChildResult result = run_in_child(
         [&] {
           if (!uneven) return packed(cgal_library::collapsed(surface, spacing));
-          const auto [least, most] = std::minmax_element(spacing.begin(), spacing.end());
-          const double edge = even_part * std::max(*least, *most * shortest_even);
-          const Surface even = cgal_library::even(surface, edge, crease_degrees);
-          std::vector<double> of_even;
-          for (const Vec3& vertex : even.vertices)
-            of_even.push_back(spacing[nearest_vertex(vertex)]);
-          return packed(cgal_library::collapsed(even, of_even));
+          const double edge = spacing.front();
+          const Surface even = cgal_library::even(surface, even_part * edge, crease_degrees);
+          return packed(cgal_library::collapsed(even, std::vector(even.vertices.size(), edge)));
         },
         remeshing_limits);
     return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
@@ -167,7 +165,7 @@ struct Attempt {
           marks[as_index(corner)] = 1;
     }
     for (std::size_t v = 0; v < spacing.size(); ++v)
-      if (marks[v] != 0) spacing[v] *= shorter;
+      if (marks[v] != 0) spacing[v] *= shorter_there;
   }
 
   void shorten() {
@@ -184,10 +182,14 @@ bool has_sharp_edge(const Surface& surface) {
   return false;
 }
 
-bool is_needle(const Surface& surface, std::size_t t) {
-  const double longest = longest_edge(surface, surface.triangles[t]);
-  return geometry::twice_area(surface, static_cast<int>(t)).norm() <
-         needle_altitude * longest * longest;
+// Adds the middles of triangles that cross.
+void add_crossings(const Surface& surface, std::vector<Vec3>& places) {
+  for (const auto& pair : cgal_library::self_intersections(surface))
+    for (const int t : pair) {
+      Vec3 sum = Vec3::Zero();
+      for (const int v : surface.triangles[as_index(t)]) sum += surface.vertices[as_index(v)];
+      places.push_back(sum / 3.0);
+    }
 }
 
 bool closed(const Surface& surface) {
@@ -203,8 +205,12 @@ bool closed(const Surface& surface) {
 
 std::size_t count_needles(const Surface& surface) {
   std::size_t count = 0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    if (is_needle(surface, t)) ++count;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const double longest = longest_edge(surface, surface.triangles[t]);
+    if (geometry::twice_area(surface, static_cast<int>(t)).norm() <
+        needle_altitude * longest * longest)
+      ++count;
+  }
   return count;
 }
 
@@ -226,45 +232,34 @@ double remeshing_limit(const Surface& surface, double spacing) {
 }
 
 std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {
+  const std::size_t given = surface.triangles.size();
+  const bool sharp = has_sharp_edge(surface);
+  if (sharp && given < large) return std::nullopt;
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
-  const bool no_needles = looser <= 1.0 && !has_sharp_edge(surface);
+  const bool no_needles = looser <= 1.0 && !sharp;
   const geometry::BoxTree original(surface);
   Attempt attempt{surface, original, std::vector<double>(surface.vertices.size(), spacing),
-                  no_needles && count_needles(surface) > 0};
-  const std::size_t given = surface.triangles.size();
+                  !sharp && count_needles(surface) > 0};
   const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
-  constexpr int most_tries = 16;
+  const int most_tries = sharp ? 16 : 8;
   for (int i = 0; i < most_tries; ++i) {
-    std::optional<Surface> tried = attempt.made();
-    if (!tried || tried->triangles.empty()) {
-      attempt.shorten();
-      continue;
-    }
-    flatten_sides(surface, spacing, *tried);
-    if (tried->triangles.size() >= most) return std::nullopt;
     std::vector<Vec3> wrong;
-    double distance = farthest(*tried, original, limit, wrong);
-    distance = std::max(distance, farthest(surface, geometry::BoxTree(*tried), limit, wrong));
-    const auto add = [&](int t) {
-      Vec3 sum = Vec3::Zero();
-      for (const int v : tried->triangles[as_index(t)]) sum += tried->vertices[as_index(v)];
-      wrong.push_back(sum / 3.0);
-    };
-    for (const auto& [one, other] : cgal_library::self_intersections(*tried)) {
-      add(one);
-      add(other);
+    if (std::optional<Surface> tried = attempt.made(); tried && !tried->triangles.empty()) {
+      flatten_sides(surface, spacing, *tried);
+      if (tried->triangles.size() >= most) return std::nullopt;
+      double distance = farthest(*tried, original, limit, wrong);
+      distance = std::max(distance, farthest(surface, geometry::BoxTree(*tried), limit, wrong));
+      if (sharp) add_crossings(*tried, wrong);
+      if (wrong.empty() && !(no_needles && count_needles(*tried) > 0) &&
+          std::abs(geometry::enclosed(*tried).volume / volume - 1.0) <= looser * most_volume &&
+          closed(*tried))
+        return Remeshed{std::move(*tried), distance};
     }
-    for (std::size_t t = 0; no_needles && t < tried->triangles.size(); ++t)
-      if (is_needle(*tried, t)) add(static_cast<int>(t));
-    if (!wrong.empty()) {
+    if (sharp && !wrong.empty())
       attempt.shorten(wrong);
-      continue;
-    }
-    if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) <= looser * most_volume &&
-        closed(*tried))
-      return Remeshed{std::move(*tried), distance};
-    attempt.shorten();
+    else
+      attempt.shorten();
   }
   return std::nullopt;
 }

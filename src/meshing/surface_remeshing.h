@@ -21,12 +21,13 @@ struct Remeshed {
 
 // A surface with edges of about `spacing` (m) for the same body. It has passed check_closed(), has
 // the same volume within 0.5 %, keeps creases and has no needles, and its largest distance from
-// `surface` is at most remeshing_limit(). Around details and sheets near each other that do not
-// allow that, its edges are shorter. Empty if no such surface with fewer triangles is found, or, of
-// a surface with needles, with less than twice as many (or 2000). If an edge of the body is sharper
-// than five degrees, needles may stay. `surface` has passed check_closed(). The same arguments give
-// the same bits. For faces that are rounded and curved afterwards distance and volume may differ
-// `looser` times as much; above 1, needles may stay.
+// `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
+// Empty if no such surface with fewer triangles is found, or, of a surface with needles, with less
+// than twice as many (or 2000). Where an edge of the body is sharper than five degrees, only 20 000
+// triangles and more become fewer: edges are shorter around details alone, and needles may stay.
+// `surface` has passed check_closed(). The same arguments give the same bits. For faces that are
+// rounded and curved afterwards distance and volume may differ `looser` times as much; above 1,
+// needles may stay.
 [[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing,
                                                double looser = 1.0);
 
