@@ -21,8 +21,6 @@
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -119,20 +117,32 @@ struct Shapes {
   }
 };
 
+// The squared length (m2) that an edge would have at the largest spacing, if lengths are in the
+// proportion of the shorter spacing at its ends.
+struct LengthForSpacing {
+  std::span<const double> spacing;  // m, of each vertex
+  double largest;                   // m
+
+  template <class Profile>
+  boost::optional<double> operator()(const Profile& profile, const boost::optional<Point>&) const {
+    const double least = std::min(spacing[profile.v0().idx()], spacing[profile.v1().idx()]);
+    const double share = least / largest;
+    return CGAL::squared_distance(profile.p0(), profile.p1()) / (share * share);
+  }
+};
+
 }  // namespace
 
-std::optional<std::array<int, 2>> self_intersection(const geometry::Surface& surface) {
+std::vector<std::array<int, 2>> self_intersections(const geometry::Surface& surface) {
   using Face = Mesh::Face_index;
   const Mesh mesh = filled(surface);
   std::vector<std::pair<Face, Face>> pairs;  // in a random order
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-  std::optional<std::array<int, 2>> lowest;
-  for (const auto& [f, g] : pairs) {
-    const std::array<int, 2> pair{static_cast<int>(std::min(f, g)),
-                                  static_cast<int>(std::max(f, g))};
-    if (!lowest || pair < *lowest) lowest = pair;
-  }
-  return lowest;
+  std::vector<std::array<int, 2>> sorted;
+  for (const auto& [f, g] : pairs)
+    sorted.push_back({static_cast<int>(std::min(f, g)), static_cast<int>(std::max(f, g))});
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
 }
 
 std::optional<std::vector<std::array<int, 3>>> triangulated(
@@ -174,14 +184,16 @@ std::optional<std::vector<std::array<int, 3>>> triangulated(
   return triangles;
 }
 
-geometry::Surface collapsed(const geometry::Surface& surface, double spacing) {
+geometry::Surface collapsed(const geometry::Surface& surface, std::span<const double> spacing) {
   Mesh mesh = filled(surface);
-  // With no edge below 0.7 of it, the mean edge is about `spacing`: measured on ellipsoids.
-  const simplification::Edge_length_stop_predicate<double> stop(0.7 * spacing);
-  simplification::edge_collapse(mesh, stop,
-                                CGAL::parameters::get_cost(simplification::Edge_length_cost<Mesh>())
-                                    .get_placement(simplification::LindstromTurk_placement<Mesh>())
-                                    .filter(Shapes()));
+  // With no edge below 0.7 of it, the mean edge is about the spacing: measured on ellipsoids.
+  const double largest = *std::max_element(spacing.begin(), spacing.end());
+  const double least_square = (0.7 * largest) * (0.7 * largest);
+  simplification::edge_collapse(
+      mesh, [&](double square, const auto&, auto, auto) { return square > least_square; },
+      CGAL::parameters::get_cost(LengthForSpacing{spacing, largest})
+          .get_placement(simplification::LindstromTurk_placement<Mesh>())
+          .filter(Shapes()));
   return taken(mesh);
 }
 

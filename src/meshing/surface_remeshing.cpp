@@ -23,15 +23,18 @@ constexpr double crease_degrees = 40.0;                            // as for nor
 constexpr double most_volume = 0.005;                              // relative change
 constexpr double needle_altitude = 1.0 / 15.0;                     // altitude over longest edge
 constexpr double shorter = 0.75;                                   // the next spacing to try
-
-// At an edge of less than five degrees even triangles of any size are longer than the body is
-// thick, and cut each other. Measured on wedges: 10 degrees take two tries, 6 take five, 4 have no
-// end.
-constexpr double folded_cosine = -0.9962;  // of the two normals
+constexpr double shorter_there = 0.5;                              // the same of some vertices
 
 // Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
 // the volume that it would take at the spacing itself.
 constexpr double even_part = 0.4;
+
+// At an edge of less than five degrees even triangles of any size are longer than the body is
+// thick, and cut each other. Measured on wedges: 10 degrees take two tries, 6 take five, 4 have no
+// end. Surfaces with such an edge are meshed as they are, but for large ones, whose triangles
+// become shorter where they would cross.
+constexpr double folded_cosine = -0.9962;  // of the two normals
+constexpr std::size_t large = 20000;       // triangles
 
 std::string packed(const Surface& surface) {
   std::string bytes;
@@ -65,12 +68,15 @@ double longest_edge(const Surface& surface, const std::array<int, 3>& triangle) 
   return longest;
 }
 
-// The largest distance of the vertices of `from`, and of its triangles' centres and middles of
-// edges, from the surface in the tree, m.
-double farthest(const Surface& from, const geometry::BoxTree& to) {
+// The largest distance, m, of the vertices of `from`, and of its triangles' centres and middles of
+// edges, from the surface in the tree. Adds those that are farther than `limit` to `far`.
+double farthest(const Surface& from, const geometry::BoxTree& to, double limit,
+                std::vector<Vec3>& far) {
   double most = 0.0;
   const auto look = [&](const Vec3& point) {
-    most = std::max(most, to.nearest(point).distance_squared);
+    const double squared = to.nearest(point).distance_squared;
+    if (squared > limit * limit) far.push_back(point);
+    most = std::max(most, squared);
   };
   for (const Vec3& vertex : from.vertices) look(vertex);
   for (const auto& [a, b, c] : from.triangles) {
@@ -120,16 +126,52 @@ void flatten_sides(const Surface& original, double spacing, Surface& surface) {
     }
 }
 
-std::optional<Surface> attempt(const Surface& surface, double spacing, bool uneven) {
-  const ChildResult result = run_in_child(
-      [&] {
-        return packed(cgal_library::collapsed(
-            uneven ? cgal_library::even(surface, even_part * spacing, crease_degrees) : surface,
-            spacing));
-      },
-      remeshing_limits);
-  return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
-}
+// Edges of about `spacing`, m, at the vertices of `surface`, which is in the tree.
+struct Attempt {
+  const Surface& surface;
+  const geometry::BoxTree& tree;
+  std::vector<double> spacing;
+  bool uneven = false;  // even triangles are collapsed, all to the first spacing
+
+  [[nodiscard]] std::size_t nearest_vertex(const Vec3& place) const {
+    const geometry::Near near = tree.nearest(place);
+    Eigen::Index corner = 0;
+    near.weights.maxCoeff(&corner);
+    return as_index(surface.triangles[as_index(near.triangle)][static_cast<std::size_t>(corner)]);
+  }
+
+  [[nodiscard]] std::optional<Surface> made() const {
+    const ChildResult result = run_in_child(
+        [&] {
+          if (!uneven) return packed(cgal_library::collapsed(surface, spacing));
+          const double edge = spacing.front();
+          const Surface even = cgal_library::even(surface, even_part * edge, crease_degrees);
+          return packed(cgal_library::collapsed(even, std::vector(even.vertices.size(), edge)));
+        },
+        remeshing_limits);
+    return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
+  }
+
+  // Takes shorter edges up to one edge from these places, or from others as near to them.
+  void shorten(std::span<const Vec3> places) {
+    std::vector<char> marks(spacing.size(), 0);
+    std::vector<geometry::Near> found;
+    for (const Vec3& place : places) {
+      const std::size_t nearest = nearest_vertex(place);
+      if (marks[nearest] != 0) continue;
+      tree.within(surface.vertices[nearest], spacing[nearest], found);
+      for (const geometry::Near& near : found)
+        for (const int corner : surface.triangles[as_index(near.triangle)])
+          marks[as_index(corner)] = 1;
+    }
+    for (std::size_t v = 0; v < spacing.size(); ++v)
+      if (marks[v] != 0) spacing[v] *= shorter_there;
+  }
+
+  void shorten() {
+    for (double& edge : spacing) edge *= shorter;
+  }
+};
 
 bool has_sharp_edge(const Surface& surface) {
   const geometry::Neighbours neighbours(surface);
@@ -138,6 +180,16 @@ bool has_sharp_edge(const Surface& surface) {
     for (const int other : neighbours.across(t))
       if (other > t && normal(t).dot(normal(other)) < folded_cosine) return true;
   return false;
+}
+
+// Adds the middles of triangles that cross.
+void add_crossings(const Surface& surface, std::vector<Vec3>& places) {
+  for (const auto& pair : cgal_library::self_intersections(surface))
+    for (const int t : pair) {
+      Vec3 sum = Vec3::Zero();
+      for (const int v : surface.triangles[as_index(t)]) sum += surface.vertices[as_index(v)];
+      places.push_back(sum / 3.0);
+    }
 }
 
 bool closed(const Surface& surface) {
@@ -180,24 +232,34 @@ double remeshing_limit(const Surface& surface, double spacing) {
 }
 
 std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {
-  if (has_sharp_edge(surface)) return std::nullopt;
+  const std::size_t given = surface.triangles.size();
+  const bool sharp = has_sharp_edge(surface);
+  if (sharp && given < large) return std::nullopt;
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
-  const bool uneven = count_needles(surface) > 0;
+  const bool no_needles = looser <= 1.0 && !sharp;
   const geometry::BoxTree original(surface);
-  constexpr int most_tries = 8;  // down to an eighth of the spacing
-  for (int i = 0; i < most_tries; ++i, spacing *= shorter) {
-    std::optional<Surface> tried = attempt(surface, spacing, uneven);
-    if (!tried || tried->triangles.empty()) continue;
-    flatten_sides(surface, spacing, *tried);
-    const std::size_t given = surface.triangles.size();
-    if (tried->triangles.size() >= (uneven ? std::max<std::size_t>(2 * given, 2000) : given))
-      return std::nullopt;
-    if (std::abs(geometry::enclosed(*tried).volume / volume - 1.0) > looser * most_volume) continue;
-    if (looser <= 1.0 && count_needles(*tried) > 0) continue;
-    const double distance =
-        std::max(farthest(*tried, original), farthest(surface, geometry::BoxTree(*tried)));
-    if (distance <= limit && closed(*tried)) return Remeshed{std::move(*tried), distance};
+  Attempt attempt{surface, original, std::vector<double>(surface.vertices.size(), spacing),
+                  !sharp && count_needles(surface) > 0};
+  const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
+  const int most_tries = sharp ? 16 : 8;
+  for (int i = 0; i < most_tries; ++i) {
+    std::vector<Vec3> wrong;
+    if (std::optional<Surface> tried = attempt.made(); tried && !tried->triangles.empty()) {
+      flatten_sides(surface, spacing, *tried);
+      if (tried->triangles.size() >= most) return std::nullopt;
+      double distance = farthest(*tried, original, limit, wrong);
+      distance = std::max(distance, farthest(surface, geometry::BoxTree(*tried), limit, wrong));
+      if (sharp) add_crossings(*tried, wrong);
+      if (wrong.empty() && !(no_needles && count_needles(*tried) > 0) &&
+          std::abs(geometry::enclosed(*tried).volume / volume - 1.0) <= looser * most_volume &&
+          closed(*tried))
+        return Remeshed{std::move(*tried), distance};
+    }
+    if (sharp && !wrong.empty())
+      attempt.shorten(wrong);
+    else
+      attempt.shorten();
   }
   return std::nullopt;
 }

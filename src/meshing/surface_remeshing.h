@@ -23,7 +23,8 @@ struct Remeshed {
 // the same volume within 0.5 %, keeps creases and has no needles, and its largest distance from
 // `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
 // Empty if no such surface with fewer triangles is found, or, of a surface with needles, with less
-// than twice as many (or 2000), and where an edge of the body is sharper than five degrees.
+// than twice as many (or 2000). Where an edge of the body is sharper than five degrees, only 20 000
+// triangles and more become fewer: edges are shorter around details alone, and needles may stay.
 // `surface` has passed check_closed(). The same arguments give the same bits. For faces that are
 // rounded and curved afterwards distance and volume may differ `looser` times as much; above 1,
 // needles may stay.

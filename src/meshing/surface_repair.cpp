@@ -68,6 +68,10 @@ class SurfaceChecker {
     const double size = (high - low).maxCoeff();
     if (!(size >= smallest && size <= largest))
       fail("is " + rounded_text(size) + " m long, but wants 1e-6 m to 10 m; " + unit_guess(size));
+    for (int axis = 0; axis < 3; ++axis)
+      if (low[axis] == high[axis])
+        fail(std::string("is a flat sheet: all its vertices have the same ") + "xyz"[axis] +
+             "; give the whole surface of a body, around its inside");
   }
 
   void shapes() const {
@@ -171,10 +175,11 @@ class SurfaceChecker {
   }
 
   void crossings() const {
-    const auto pair = cgal_library::self_intersection(surface_);
-    if (pair)
-      fail("faces " + std::to_string((*pair)[0]) + " and " + std::to_string((*pair)[1]) +
-           " cut, touch or overlap each other" + place(corners((*pair)[0])[0]) +
+    const auto pairs = cgal_library::self_intersections(surface_);
+    if (!pairs.empty())
+      fail("faces " + std::to_string(pairs.front()[0]) + " and " +
+           std::to_string(pairs.front()[1]) + " cut, touch or overlap each other" +
+           place(corners(pairs.front()[0])[0]) +
            "; remove one of them or move their vertices apart");
   }
 

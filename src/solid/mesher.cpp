@@ -51,7 +51,7 @@ class Mesher {
       net.cut(*base);
     fill_planes(net);
     const auto size = [this](const Vec3& place) { return order_.sizes.at(place); };
-    net.refine(size);
+    net.refine(size, order_.surface != nullptr ? std::optional<int>(of_file) : std::nullopt);
     meshing::PieceMesh filled = meshing::tetgen_pieces(
         {{net.vertices(), net.triangles()}, net.numbers()}, size, time_limit);
     const std::vector<int> number =

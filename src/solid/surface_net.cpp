@@ -7,6 +7,7 @@
 #include <set>
 
 #include "geometry/smooth_surface.h"
+#include "meshing/cgal_library.h"
 
 namespace palpate::solid {
 namespace {
@@ -195,7 +196,31 @@ void SurfaceNet::drop_below(const Plane& plane) {
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) connect(t);
 }
 
-void SurfaceNet::refine(const std::function<double(const Vec3&)>& size) {
+// Repeats a step that adds no vertices, without those whose triangles cross after it.
+void SurfaceNet::without_crossings(std::optional<int> whole,
+                                   const std::function<void(SurfaceNet&)>& step) {
+  constexpr int most_rounds = 6;
+  std::vector<char> kept(vertices_.size(), 0);
+  for (int round = 0; round < most_rounds; ++round) {
+    SurfaceNet changed = *this;
+    changed.kept_ = kept;
+    step(changed);
+    geometry::Surface outer{changed.vertices_, {}};
+    for (std::size_t t = 0; whole && t < changed.triangles_.size(); ++t)
+      if (changed.numbers_[t] == *whole) outer.triangles.push_back(changed.triangles_[t]);
+    const auto crossing = meshing::cgal_library::self_intersections(outer);
+    if (crossing.empty() || round + 1 == most_rounds) {
+      *this = std::move(changed);
+      kept_.clear();
+      return;
+    }
+    for (const auto& pair : crossing)
+      for (const int t : pair)
+        for (const int v : outer.triangles[as_index(t)]) kept[as_index(v)] = 1;
+  }
+}
+
+void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::optional<int> whole) {
   constexpr double longest = 1.6;
   struct Long {
     double excess;  // length over wanted length
@@ -204,7 +229,7 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size) {
       return excess != other.excess ? excess < other.excess : edge > other.edge;
     }
   };
-  turn_edges();
+  without_crossings(whole, [](SurfaceNet& net) { net.turn_edges(); });
   for (;;) {
     std::priority_queue<Long> waiting;
     const auto look = [&](const Edge& edge) {
@@ -231,11 +256,13 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size) {
     }
     turn_edges();
   }
-  constexpr int rounds = 4;
-  for (int round = 0; round < rounds; ++round) {
-    smooth();
-    turn_edges();
-  }
+  without_crossings(whole, [](SurfaceNet& net) {
+    constexpr int rounds = 4;
+    for (int round = 0; round < rounds; ++round) {
+      net.smooth();
+      net.turn_edges();
+    }
+  });
 }
 
 // Moves every vertex without a crease, and on no plane or inside one, to the mean of its
@@ -268,7 +295,7 @@ void SurfaceNet::smooth() {
     return twice_area(t).norm() < least * squares;
   };
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
-    if (fixed[v] != 0 || near[v].empty()) continue;
+    if (fixed[v] != 0 || near[v].empty() || (!kept_.empty() && kept_[v] != 0)) continue;
     const Vec3 before = vertices_[v];
     Vec3 middle = Vec3::Zero();
     for (const int other : near[v])
@@ -311,6 +338,9 @@ void SurfaceNet::turn_edges() {
       for (std::size_t i = 0; i < 2; ++i)
         for (const int v : triangles_[as_index(pair[i])])
           if (v != edge[0] && v != edge[1]) tips[i] = v;
+      if (!kept_.empty() &&
+          std::any_of(tips.begin(), tips.end(), [&](int v) { return kept_[as_index(v)] != 0; }))
+        continue;
       // An edge along a plane stays, but for those between triangles on it.
       if (std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
             return plane.beyond(a) == 0.0 && plane.beyond(b) == 0.0 &&

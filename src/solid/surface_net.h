@@ -52,8 +52,9 @@ class SurfaceNet {
   void drop_below(const Plane& plane);
   // Splits edges that are longer than `size` says for their middles, the longest first, turns edges
   // between triangles of one number where that makes them rounder, and moves vertices between such
-  // triangles to the middle of their neighbours.
-  void refine(const std::function<double(const Vec3&)>& size);
+  // triangles to the middle of their neighbours. Turns and moves by which triangles of the number
+  // `whole` would cross each other are left out; these form a manifold.
+  void refine(const std::function<double(const Vec3&)>& size, std::optional<int> whole = {});
 
   // Adds a vertex on no triangle; returns its number.
   int add(const Vec3& point);
@@ -73,6 +74,7 @@ class SurfaceNet {
   void disconnect(int triangle);
   void turn_edges();
   void smooth();
+  void without_crossings(std::optional<int> whole, const std::function<void(SurfaceNet&)>& step);
   [[nodiscard]] bool crease(const Edge& edge) const;
 
   std::vector<Vec3> vertices_;
@@ -81,6 +83,7 @@ class SurfaceNet {
   std::map<Edge, std::vector<int>> at_;  // triangles at every edge
   std::vector<Plane> planes_;
   Onto onto_;
+  std::vector<char> kept_;  // vertices that stay, with the edges of their triangles; or empty
 };
 
 }  // namespace palpate::solid

@@ -14,6 +14,7 @@ import math
 import os
 import re
 import resource
+import signal
 import struct
 import subprocess
 import sys
@@ -317,14 +318,21 @@ def measured(command, seconds):
               'print("%d %f %d" % (done.returncode, use.ru_utime + use.ru_stime, use.ru_maxrss))\n')
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
-    done = subprocess.run([sys.executable, '-c', script] + command, capture_output=True, text=True,
-                          preexec_fn=limit)
-    lines_out = done.stdout.strip().split('\n')
+    child = subprocess.Popen([sys.executable, '-c', script] + command, stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE, text=True, preexec_fn=limit,
+                             start_new_session=True)
+    try:
+        out, err = child.communicate(timeout=4 * seconds)
+    except subprocess.TimeoutExpired:
+        os.killpg(child.pid, signal.SIGKILL)
+        child.communicate()
+        return -9, '', 'took more than %d s' % (4 * seconds), float(seconds), 0.0
+    lines_out = out.strip().split('\n')
     try:
         code, time, memory = lines_out[-1].split()
     except ValueError:
-        return -9, '', done.stderr, float(seconds), 0.0
-    return int(code), '\n'.join(lines_out[:-1]), done.stderr, float(time), float(memory) / 1024
+        return -9, '', err, float(seconds), 0.0
+    return int(code), '\n'.join(lines_out[:-1]), err, float(time), float(memory) / 1024
 
 
 def size_of(palpate, path):

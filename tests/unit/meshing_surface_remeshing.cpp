@@ -219,6 +219,41 @@ TEST(Needles, OfAWedgeAreKeptWithoutATry) {
   EXPECT_EQ(pages_of_children(), before) << "a child process was started";
 }
 
+// A single edge sharper than five degrees had kept all triangles of a scan.
+TEST(FineSurface, IsCoarserBesideASharpEdge) {
+  Surface fine = sampled(geometry::Ellipsoid{Vec3::Constant(0.03)}, 0.5e-3);
+  ASSERT_GT(fine.triangles.size(), 20000u);
+  // A fin: one edge at the equator is pulled outwards by 12 mm.
+  const Vec3 middle = Vec3::Constant(0.015);
+  int from = 0;
+  for (std::size_t v = 0; v < fine.vertices.size(); ++v)
+    if (fine.vertices[v].x() > fine.vertices[as_index(from)].x()) from = static_cast<int>(v);
+  int to = -1;
+  for (const auto& triangle : fine.triangles)
+    for (std::size_t i = 0; i < 3 && to < 0; ++i)
+      if (triangle[i] == from) to = triangle[(i + 1) % 3];
+  for (const int v : {from, to}) fine.vertices[as_index(v)] += 0.012 * Vec3::UnitX();
+  check_closed(fine, "fin");
+  double folded = 1.0;
+  const geometry::Neighbours neighbours(fine);
+  for (int t = 0; t < static_cast<int>(fine.triangles.size()); ++t)
+    for (const int other : neighbours.across(t))
+      folded = std::min(folded, geometry::twice_area(fine, t).normalized().dot(
+                                    geometry::twice_area(fine, other).normalized()));
+  ASSERT_LT(folded, std::cos(175.0 * std::numbers::pi / 180.0));
+  for (const double looser : {1.0, 4.0}) {
+    const auto coarse = remeshed(fine, 5e-3, looser);
+    ASSERT_TRUE(coarse.has_value()) << looser;
+    check_closed(coarse->surface, "coarse");
+    EXPECT_LT(coarse->surface.triangles.size(), 3000u) << looser;
+    EXPECT_LE(coarse->distance, looser * remeshing_limit(fine, 5e-3));
+    double farthest = 0.0;
+    for (const Vec3& vertex : coarse->surface.vertices)
+      farthest = std::max(farthest, (vertex - middle).norm());
+    EXPECT_NEAR(farthest, 0.027, looser * remeshing_limit(fine, 5e-3));
+  }
+}
+
 // Eight triangles: the search ended with the six nodes of the surface, and said that it keeps them.
 TEST(FileMesh, OfAFewTrianglesHasTheNodesAskedFor) {
   for (const double degrees : {3.0, 10.0, 30.0}) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "geometry/cuboid.h"
+#include "meshing/cgal_library.h"
 #include "solid/finger_press.h"
 
 namespace palpate::solid {
@@ -32,6 +33,38 @@ constexpr double ball = 4.0 / 3.0 * 3.14159265358979;
 MeshOrder box() {
   return {.shape = geometry::Cuboid{Vec3(0.040, 0.036, 0.020)},
           .sizes = {{{Vec3(0.020, 0.018, 0.020), 0.003, 0.0015}}, 0.009}};
+}
+
+// A flat peak over the tip of a spike: its vertex, at the middle of its neighbours, would be below
+// the tip.
+TEST(SurfaceNet, MovesNoVertexThroughAnotherSheet) {
+  geometry::Surface sheets;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i)
+      sheets.vertices.emplace_back(10.0 * i, 10.0 * j, i == 1 && j == 1 ? 2.0 : 0.0);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      const int at = i + 3 * j;
+      if (i == j)  // all diagonals run through the peak
+        sheets.triangles.insert(sheets.triangles.end(),
+                                {{at, at + 1, at + 4}, {at, at + 4, at + 3}});
+      else
+        sheets.triangles.insert(sheets.triangles.end(),
+                                {{at, at + 1, at + 3}, {at + 1, at + 4, at + 3}});
+    }
+  for (const Vec3& place : {Vec3(10.0, 10.0, 1.5), Vec3(11.0, 10.0, -10.0), Vec3(9.5, 11.0, -10.0),
+                            Vec3(9.5, 9.0, -10.0)})
+    sheets.vertices.push_back(place);
+  for (const int i : {0, 1, 2}) sheets.triangles.push_back({9, 10 + i, 10 + (i + 1) % 3});
+  ASSERT_TRUE(meshing::cgal_library::self_intersections(sheets).empty());
+  const auto crossing = [&](std::optional<int> whole) {
+    SurfaceNet net(sheets, std::vector<int>(sheets.triangles.size(), 2),
+                   [](const Vec3& point, std::span<const int>) { return point; });
+    net.refine([](const Vec3&) { return 100.0; }, whole);
+    return meshing::cgal_library::self_intersections({net.vertices(), net.triangles()}).size();
+  };
+  EXPECT_GT(crossing(std::nullopt), 0u);  // or the test tests nothing
+  EXPECT_EQ(crossing(2), 0u);
 }
 
 // "Skin over fat with a lump": a later region replaces an earlier one, also where a slab cuts it.
