@@ -68,10 +68,6 @@ class SurfaceChecker {
     const double size = (high - low).maxCoeff();
     if (!(size >= smallest && size <= largest))
       fail("is " + rounded_text(size) + " m long, but wants 1e-6 m to 10 m; " + unit_guess(size));
-    for (int axis = 0; axis < 3; ++axis)
-      if (low[axis] == high[axis])
-        fail(std::string("is a flat sheet: all its vertices have the same ") + "xyz"[axis] +
-             "; give the whole surface of a body, around its inside");
   }
 
   void shapes() const {
@@ -449,8 +445,17 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
     if (!order.repair || surface.vertices.empty() || surface.triangles.empty()) throw;
     fault = error.what();
   }
-  for (const Vec3& vertex : surface.vertices)
+  Vec3 low = surface.vertices.front();
+  Vec3 high = low;
+  for (const Vec3& vertex : surface.vertices) {
     if (!vertex.allFinite()) throw MeshError(fault);
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (low[axis] == high[axis])
+      throw MeshError("surface `" + name + "`: is a flat sheet: all its vertices have the same " +
+                      "xyz"[axis] + "; give the whole surface of a body, around its inside");
   WholeSurface whole;
   const int joined = join_near(surface);
   const ChildResult result =

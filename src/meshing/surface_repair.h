@@ -13,13 +13,12 @@ namespace palpate::meshing {
 // in messages.
 //
 // Refused, in this order: no faces; an index out of range; a coordinate that is not finite; a size
-// (longest side of the bounding box) below 1e-6 m or above 10 m, probably a wrong unit; vertices
-// with one coordinate in common, which are a flat sheet; a face with a repeated vertex; two faces
-// with the same vertices; a face whose height is below 1e-6 of its longest edge; a vertex without a
-// face; the first face that is a third one at an edge, faces the side opposite to a neighbour's, or
-// touches others in a vertex only; holes; an inside-out surface; a part beside another, or inside
-// another and facing outwards (one that faces inwards is a cavity); two faces that cut, touch or
-// overlap each other. About 1 s for 1e5 faces.
+// (longest side of the bounding box) below 1e-6 m or above 10 m, probably a wrong unit; a face with
+// a repeated vertex; two faces with the same vertices; a face whose height is below 1e-6 of its
+// longest edge; a vertex without a face; the first face that is a third one at an edge, faces the
+// side opposite to a neighbour's, or touches others in a vertex only; holes; an inside-out
+// surface; a part beside another, or inside another and facing outwards (one that faces inwards is
+// a cavity); two faces that cut, touch or overlap each other. About 1 s for 1e5 faces.
 void check_closed(const geometry::Surface& surface, const std::string& name);
 
 struct WholeSurface {

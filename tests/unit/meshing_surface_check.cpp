@@ -105,12 +105,6 @@ TEST(SurfaceCheck, asks_about_the_unit) {
             "surface `paw`: is 1e+300 m long, but wants 1e-6 m to 10 m; check its unit");
 }
 
-TEST(SurfaceCheck, says_that_a_sheet_is_flat) {
-  EXPECT_EQ(closed({{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}}),
-            "surface `paw`: is a flat sheet: all its vertices have the same z; give the whole "
-            "surface of a body, around its inside");
-}
-
 TEST(SurfaceCheck, refuses_a_repeated_vertex) {
   geometry::Surface surface = corner();
   surface.triangles.push_back({2, 3, 2});

@@ -148,6 +148,9 @@ TEST(SurfaceRepair, what_is_worse_is_refused_with_its_size) {
   doubled.triangles.push_back(doubled.triangles[7]);
   EXPECT_NE(refusal(doubled, {.repair = false}).find("have the same vertices"), std::string::npos);
   EXPECT_NE(refusal(body(), {true, 3}).find("has 1 part, and `part` is 3"), std::string::npos);
+  EXPECT_EQ(refusal({{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}}, {}),
+            "surface `paw`: is a flat sheet: all its vertices have the same z; give the whole "
+            "surface of a body, around its inside");
 }
 
 }  // namespace
