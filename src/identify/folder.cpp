@@ -43,8 +43,7 @@ std::string suffix_of(const Identification& found, std::size_t k) {
 std::string figure_words(const std::string& name) {
   if (name.starts_with("profile"))
     return "How much worse the fit becomes if one value is fixed and the others are fitted; below "
-           "the "
-           "line the value is within the 95 % interval.";
+           "the line the value is within the 95 % interval.";
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
 
@@ -54,11 +53,9 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   page::Page page(pairs.front().family->title, "identification");
   // The first unknown large, the others and what the fit is below.
   std::vector<std::string> lines = identified_sentences(found);
-  const std::string& first = lines.front();
-  const std::size_t name = first.find("  "), interval = first.find("  (");
-  if (interval != std::string::npos) {
-    page.headline(first.substr(0, name) + " " + trimmed(first.substr(name, interval - name)),
-                  trimmed(first.substr(interval)));
+  const identify::Identified& first = found.unknowns.front();
+  if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
+    page.headline(first.unknown.name() + " " + value, interval);
     lines.erase(lines.begin());
   }
   page.answer(lines);

@@ -98,7 +98,6 @@ ProfileAxis profile_axis(const Identification& found, std::size_t i) {
 
 plot::Sheet profile_sheet(const std::string& title, const identify::Identification& found) {
   const std::size_t panels = found.unknowns.size();
-
   std::string text = plot::gnuplot_head("profile", {.height = static_cast<int>(60 + 270 * panels)});
   text += "set datafile missing NaN\nset multiplot layout " + std::to_string(panels) + ",1 title " +
           plot::gnuplot_quoted(title + ": profile likelihood, 95 % below the line") +

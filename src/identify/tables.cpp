@@ -152,20 +152,22 @@ record::Table profile_table(const Identification& found) {
   return table;
 }
 
+EstimateTexts estimate_texts(const Identification& found, const Identified& one) {
+  if (one.tied) return {"not determined by itself", ""};
+  return {with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()),
+          "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
+              (one.by_profile ? ", by profile)" : ")") +
+              (one.at_bound ? "  on the edge of its range" : "")};
+}
+
 std::vector<std::string> identified_sentences(const Identification& found) {
   std::vector<std::string> lines;
   std::size_t width = 0;
   for (const Identified& one : found.unknowns) width = std::max(width, one.unknown.name().size());
   for (const Identified& one : found.unknowns) {
-    std::string line = one.unknown.name() + std::string(width - one.unknown.name().size() + 2, ' ');
-    if (one.tied)
-      line += "not determined by itself";
-    else
-      line += with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()) +
-              "  (95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
-              (one.by_profile ? ", by profile)" : ")") +
-              (one.at_bound ? "  on the edge of its range" : "");
-    lines.push_back(line);
+    const std::string gap(width - one.unknown.name().size() + 2, ' ');
+    const auto [value, interval] = estimate_texts(found, one);
+    lines.push_back(one.unknown.name() + gap + value + (interval.empty() ? "" : "  ") + interval);
   }
   for (const Combination& one : found.combinations)
     lines.push_back(combination_sentence(found, one));

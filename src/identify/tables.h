@@ -30,6 +30,14 @@ struct Interval {
 };
 [[nodiscard]] Interval trusted(const Identified& one);
 
+// An estimate in words: `12.3 kPa` and `(95 %: 11 to 13)`. Without an interval where it is not
+// separately identifiable.
+struct EstimateTexts {
+  std::string value;
+  std::string interval;
+};
+[[nodiscard]] EstimateTexts estimate_texts(const Identification& found, const Identified& one);
+
 // Lines for stdout: estimates, tied unknowns, model, residuals and effect of the contact point.
 [[nodiscard]] std::vector<std::string> identified_sentences(const Identification& found);
 

@@ -246,7 +246,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   for (int i = 0; i < most_tries; ++i) {
     std::vector<Vec3> wrong;
     if (std::optional<Surface> tried = attempt.made(); tried && !tried->triangles.empty()) {
-      flatten_sides(surface, spacing, *tried);
+      flatten_sides(surface, std::ranges::max(attempt.spacing), *tried);
       if (tried->triangles.size() >= most) return std::nullopt;
       double distance = farthest(*tried, original, limit, wrong);
       distance = std::max(distance, farthest(surface, geometry::BoxTree(*tried), limit, wrong));

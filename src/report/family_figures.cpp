@@ -57,21 +57,20 @@ std::string formula(fit::Model model, const std::vector<std::string>& p) {
 }  // namespace
 
 plot::Figure figure_force_indentation(std::vector<plot::Series> series) {
-  return {
-      .name = "figure_force_indentation",
-      .title = "Palpation force against indentation",
-      .x_label = "Indentation, the displacement (mm)",
-      .y_label = "Force F (N)",
-      .from_zero = true,
-      .series = completed(std::move(series), {"force_indentation.csv", "travel_mm", "force_N"})};
+  plot::Figure figure = figure_force_depth({});
+  figure.x_label = "Displacement (mm)";
+  figure.series = completed(std::move(series), {"force_indentation.csv", "travel_mm", "force_N"});
+  return figure;
 }
 
 plot::Figure figure_force_depth(std::vector<plot::Series> series) {
-  plot::Figure figure = figure_force_indentation({});
-  figure.x_label = "Effective depth h (mm)";
-  figure.series =
-      completed(std::move(series), {"force_indentation.csv", "indentation_mm", "force_N"});
-  return figure;
+  return {.name = "figure_force_indentation",
+          .title = "Palpation force against indentation",
+          .x_label = "Effective depth h (mm)",
+          .y_label = "Force F (N)",
+          .from_zero = true,
+          .series =
+              completed(std::move(series), {"force_indentation.csv", "indentation_mm", "force_N"})};
 }
 
 plot::Figure figure_force_curvature(std::vector<plot::Series> series) {

@@ -199,6 +199,7 @@ void SurfaceNet::drop_below(const Plane& plane) {
 // Repeats a step that adds no vertices, without those whose triangles cross after it.
 void SurfaceNet::without_crossings(std::optional<int> whole,
                                    const std::function<void(SurfaceNet&)>& step) {
+  if (!whole) return step(*this);
   constexpr int most_rounds = 6;
   std::vector<char> kept(vertices_.size(), 0);
   for (int round = 0; round < most_rounds; ++round) {
@@ -206,7 +207,7 @@ void SurfaceNet::without_crossings(std::optional<int> whole,
     changed.kept_ = kept;
     step(changed);
     geometry::Surface outer{changed.vertices_, {}};
-    for (std::size_t t = 0; whole && t < changed.triangles_.size(); ++t)
+    for (std::size_t t = 0; t < changed.triangles_.size(); ++t)
       if (changed.numbers_[t] == *whole) outer.triangles.push_back(changed.triangles_[t]);
     const auto crossing = meshing::cgal_library::self_intersections(outer);
     if (crossing.empty() || round + 1 == most_rounds) {
