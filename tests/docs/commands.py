@@ -1,4 +1,4 @@
-"""Runs the commands of the documents and compares what they print: commands.py PALPATE [PAGE...].
+"""Runs the commands of the documents and compares what they print: commands.py PALPATE [PAGE... | --but PAGE...].
 
 Run is every line of a fenced block that begins with `palpate ` or `python3 docs/`, with or without `$ `
 before it, page by page, each page in a folder of its own in which scenarios/, materials/ and docs/ are
@@ -97,7 +97,10 @@ def run_page(program, page):
 
 def main():
     program = Path(sys.argv[1]).resolve()
-    pages = sys.argv[2:] or ["README.md", *sorted(str(p.relative_to(TOP)) for p in (TOP / "docs").rglob("*.md"))]
+    pages = sys.argv[2:]
+    if not pages or pages[0] == "--but":
+        every = ["README.md", *sorted(str(p.relative_to(TOP)) for p in (TOP / "docs").rglob("*.md"))]
+        pages = [page for page in every if page not in pages]
     all_faults, all_counts, all_compared = [], 0, 0
     for page in pages:
         faults, count, compared = run_page(program, page)
