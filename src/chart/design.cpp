@@ -353,7 +353,7 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
   refuse_forces(
       family,
       "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
-      "forces at equal travels; give a displacement");
+      "forces at equal displacements; give a displacement");
   return parsed(path, text, settings);
 }
 

@@ -71,7 +71,7 @@ void refuse_slides_at_a_force(const scenario::Family& family, const Scenario& sc
     if (const auto* slide = std::get_if<scenario::Slide>(&scenario.steps[i]);
         slide != nullptr && slide->keep == scenario::Slide::Keep::force)
       refuse_at(family, "step." + std::to_string(i + 1) + ".keep",
-                "the reference slides at a depth; write `keep = \"travel\"`");
+                "the reference slides at a depth; write `keep = \"displacement\"`");
 }
 
 // Whether spheres share the force of one, which the reference presses in their place.
@@ -323,7 +323,7 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;
     return record;
   };
-  const Direction direction = one.scenario.contact.direction.value_or(Direction::skin);
+  const Direction direction = one.scenario.contact.direction.value_or(Direction::surface);
   const double factor = copies(refinement.part());
   for (int level = 0; level < levels && !reference.diverged; ++level) {
     const record::CaseRecord record = run_level(level, direction);
@@ -347,13 +347,13 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
   }
   if (refinement.resolved()) {
     const record::CaseRecord turned =
-        run_level(0, direction == Direction::skin ? Direction::sphere : Direction::skin);
+        run_level(0, direction == Direction::surface ? Direction::sphere : Direction::surface);
     for (std::size_t i = 0; i < std::min(turned.contact.size(), reference.rows.size()); ++i) {
       ReferenceRow& row = reference.rows[i];
       const double other = factor * turned.contact[i].contact_force;
       if (row.forces.front() <= 0.0 || other <= 0.0) continue;
       row.by_sphere =
-          direction == Direction::skin ? other / row.forces.front() : row.forces.front() / other;
+          direction == Direction::surface ? other / row.forces.front() : row.forces.front() / other;
     }
   }
   remark(refinement, reference);

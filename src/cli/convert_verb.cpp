@@ -79,7 +79,7 @@ void check_options(const Convert& command, Kind kind) {
     refuse("`--to` and `--case` are for results, and " + command.subject +
            " is none; leave them out, or give the folder of a result");
   if (kind == Kind::scenario && !command.unit.empty())
-    refuse("a scenario names the units of its files itself; leave out `--unit`");
+    refuse("a scenario names the units of its files itself; remove `--unit`");
   if (kind != Kind::scenario && command.unit.empty())
     refuse("`palpate convert` lacks the unit of the coordinates in " + command.subject +
            "; write `--unit mm`");

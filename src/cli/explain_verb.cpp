@@ -433,11 +433,11 @@ class Explanation {
       line("  mesh error   " + error_text(*error) +
            " of the force at the largest displacement, estimated on this mesh");
     if (scenario::rung(scene_.scenario.solver.model).coupled()) {
-      line("  network      coupled in every tetrahedron: it has E and nu of the tissue");
+      line("  springs      coupled in every tetrahedron: it has E and nu of the tissue");
       return;
     }
     const bool several = scene::several_tissues(scene_.scenario);
-    line(std::string("  network      measured on the specimen") +
+    line(std::string("  springs      measured on the specimen") +
          (several ? " with `tissue.material` in all regions" : "") + ": E " +
          rounded_text(unit::kPa.from_si(specimen.measured.young_modulus)) + " kPa (" +
          rounded_text(specimen.measured.young_modulus / scene_.scenario.tissue.young_modulus) +

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The reports below a folder, relative to it, by name. Partial folders of running or killed
-// processes have a dot in their names and are left out.
+// processes have a dot in their names and are excluded.
 std::vector<std::string> reports_below(const fs::path& folder) {
   std::vector<std::string> found;
   std::error_code error;

@@ -174,8 +174,8 @@ class AdhesiveFit {
     if (finite > curve_.depth.size())
       fit_.notes.push_back(std::to_string(finite - curve_.depth.size()) +
                            (test_.way == ContactTest::Way::approach
-                                ? " points are left out: the way back from the deepest row"
-                                : " points are left out: the way to the deepest row; `--segment "
+                                ? " points are excluded: the way back from the deepest row"
+                                : " points are excluded: the way to the deepest row; `--segment "
                                   "approach` fits it"));
     for (const double each : curve_.force) scale_ = std::max(scale_, std::abs(each));
     if (!(scale_ > 0.0)) throw InputError({}, "the force is 0 at every point; name another `--y`");

@@ -52,7 +52,7 @@ void refuse_too_few(const Fit& fit) {
                         std::to_string(needed) + " points, and " + std::to_string(fit.n) +
                         (fit.n == 1 ? " is" : " are") + " usable";
   if (fit.left_out > 0)
-    message += " (" + std::to_string(fit.left_out) + " left out: not finite" +
+    message += " (" + std::to_string(fit.left_out) + " excluded: not finite" +
                (model.positive_x_only ? ", or x not above 0)" : ")");
   throw InputError({}, message + "; record more points, or fit a model with fewer parameters");
 }

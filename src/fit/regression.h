@@ -54,9 +54,9 @@ struct Fit {
   double rho = 0.0;  // correlation of neighbouring residuals; 0 where taken as independent
   double effective_size = Estimate::unknown;  // independent rows of the same worth
   double durbin_watson = Estimate::unknown;   // of the residuals in the order of the points
-  bool gave_way = false;  // rows beyond the largest force are left out: the specimen gave way
+  bool gave_way = false;  // rows beyond the largest force are excluded: the specimen gave way
   std::string law = {};   // the formula that was fitted, with its source
-  std::vector<std::string> notes = {};     // sentences: what was left out and what was decided
+  std::vector<std::string> notes = {};     // sentences: what was excluded and what was decided
   std::vector<std::string> warnings = {};  // sentences: why the estimates may be wrong
 };
 

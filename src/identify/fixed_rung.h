@@ -24,7 +24,7 @@ struct FixedRung {
 // Returns the cheapest model whose estimated error is within `solver.tolerance` at the corners and
 // in the middle of the box (more than 5 unknowns: at the ends of each, the others in the middle);
 // if there is none, the model with the smallest worst error. Viscosity in the contact, inertia or
-// the factor of deep presses is used throughout if any of these points needs it; waves are left out
+// the factor of deep presses is used throughout if any of these points needs it; inertia is neglected
 // of the flow between platens. `document` gives messages their place. Throws InputError with the
 // problems of the middle if the scenario is invalid at all of these points.
 [[nodiscard]] FixedRung fix_rung(const scenario::Case& one, const Node& document,

@@ -242,7 +242,7 @@ class Search {
   }
 
   // Two properties of the scenario that correlate by more than 0.95, or any two keys that do
-  // where the points are worth fewer than ten independent ones, have no numbers of their own: what
+  // where the effective sample size is below ten, have no numbers of their own: what
   // tells them apart is as small as the model's own error. The weakest direction counts as not
   // determined.                                                       docs/theory.md [correlation]
   void tie_what_correlates() {
@@ -259,9 +259,8 @@ class Search {
         if (std::abs(with) <= high_correlation || !(few || elastic)) continue;
         found_.notes.push_back("`" + unknowns_[j].name() + "` and `" + unknowns_[i].name() +
                                "` correlate by " + rounded_text(with, 4) +
-                               (few ? ", and the points are worth " +
-                                          rounded_text(std::max(1.0, found_.effective_size), 3) +
-                                          " independent ones"
+                               (few ? ", and the effective sample size is " +
+                                          rounded_text(std::max(1.0, found_.effective_size), 3)
                                     : std::string()) +
                                ": they have no numbers of their own");
         errors_ = box_errors(best_.jacobian, n, along_, t_, 1);
@@ -420,14 +419,14 @@ class Search {
       refuse(
           "the best fit lies at the edge of the range of " +
           std::string(all.size() == 1 ? ticked(all.front().unknown.name()) : "every `--unknown`") +
-          ", so that the answer is outside; widen the range, or mend the scenario");
+          ", so that the value lies outside; widen the range, or mend the scenario");
     const bool some = std::any_of(all.begin(), all.end(),
                                   [](const auto& one) { return !one.tied && !one.at_bound; });
     if (!some && found_.combinations.empty())
       refuse("these data cannot tell " +
              std::string(all.size() == 1 ? ticked(all.front().unknown.name())
                                          : "any of the unknowns") +
-             " to better than half of the range; record a longer or less noisy curve, or leave out "
+             " to better than half of the range; record a longer or less noisy curve, or exclude "
              "an `--unknown`");
   }
 

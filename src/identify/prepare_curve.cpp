@@ -108,7 +108,7 @@ class Preparation {
     if (points == 0) return;
     found_.left_out += points;
     found_.notes.push_back(std::to_string(points) + (points == 1 ? " point is" : " points are") +
-                           " left out: " + why);
+                           " excluded: " + why);
   }
 
   // Takes the points up to the end of the loading history, which is run at the first of the
@@ -208,7 +208,7 @@ class Preparation {
       refuse(std::to_string(points) + (points == 1 ? " usable point" : " usable points") +
              " cannot determine " + std::to_string(unknowns_.size()) +
              (unknowns_.size() == 1 ? " unknown" : " unknowns") +
-             " and the noise; record more points, or leave out an `--unknown`");
+             " and the noise; record more points, or remove an `--unknown`");
     const auto [least, most] = std::minmax_element(found_.measured.begin(), found_.measured.end());
     if (*least == *most)
       refuse("`" + measured_.y_name +

@@ -178,26 +178,26 @@ std::vector<std::string> identified_sentences(const Identification& found) {
                         " adds a standard error of " +
                         with_unit(unknown.shown(part.deviations[i]), unknown.unit_text()) +
                         " to `" + unknown.name() + "`.");
-  const auto points_of = [](const Identification& one, const std::string& worth) {
+  const auto points_of = [](const Identification& one, const std::string& size) {
     const CurveWords& words = words_of(one.kind);
     return std::to_string(one.x.size()) + " points" +
-           (one.left_out > 0 ? " (" + std::to_string(one.left_out) + " left out)" : "") + worth +
+           (one.left_out > 0 ? " (" + std::to_string(one.left_out) + " excluded)" : "") + size +
            ", RMSE " + with_unit(words.y.from_si(one.rmse), words.y.symbol) + ", R2 " +
            rounded_text(one.r2, 6);
   };
-  const std::string worth =
+  const std::string size =
       found.rho > 0.0
-          ? ", worth " + rounded_text(std::max(1.0, found.effective_size), 3) + " independent ones"
+          ? ", effective sample size " + rounded_text(std::max(1.0, found.effective_size), 3)
           : "";
   const std::string watson = ", Durbin-Watson " + rounded_text(found.durbin_watson, 3) + ".";
   if (found.pairs.empty()) {
     lines.push_back(model_sentence(found));
-    lines.push_back(points_of(found, worth) + watson);
+    lines.push_back(points_of(found, size) + watson);
   } else {
     for (std::size_t k = 0; k < found.pairs.size(); ++k)
       lines.push_back("Pair " + std::to_string(k + 1) + ": " + model_sentence(found.pairs[k]) +
                       " " + points_of(found.pairs[k], "") + ".");
-    lines.push_back(std::to_string(found.x.size()) + " points together" + worth + watson);
+    lines.push_back(std::to_string(found.x.size()) + " points together" + size + watson);
     for (std::size_t i = 0; i < found.unknowns.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (const double with = found.correlation[i * found.unknowns.size() + j];

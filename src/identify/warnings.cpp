@@ -48,7 +48,7 @@ std::vector<std::string> warnings_of(const Identification& found,
   if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
     warnings.push_back("waves in the specimen change its deformation by about " +
                        percent_text(*waves) +
-                       " and are left out; set `solver.integrator = \"central_difference\"`");
+                       " and are neglected; set `solver.integrator = \"central_difference\"`");
   return warnings;
 }
 

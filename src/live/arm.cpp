@@ -140,7 +140,7 @@ class ArmLoop {
     return device::clamped_norm(force, most);
   }
 
-  // Advances the model. If it is more than some frames behind, it leaves out the rest of the time.
+  // Advances the model. If it is more than some frames behind, it drops the rest of the time.
   void follow() {
     const double passed = now_ - followed_;
     followed_ = now_;

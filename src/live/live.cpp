@@ -118,7 +118,7 @@ void refuse_beyond_device(const scene::Scene& scene, const std::string& file,
   if (asked.uniform())
     throw InputError(place,
                      "is a uniform test, which no device carries out; give it `indent` steps, or "
-                     "leave out `--device`");
+                     "remove `--device`");
   const device::Address address = device::parse_link(options.link);
   if (!std::holds_alternative<device::StandAddress>(address) &&
       !std::holds_alternative<device::GaugeAddress>(address))
@@ -280,7 +280,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   result.warnings.insert(result.warnings.end(), loop.remarks.begin(), loop.remarks.end());
   if (loop.left_out > 0.0)
     result.warnings.push_back(rounded_text(loop.left_out, 3) +
-                              " s of late frames are left out of the model's time: the tissue's "
+                              " s of late frames are dropped from the model's time: the tissue's "
                               "relaxation and waves lag behind by that time");
   for (const std::vector<std::string>& sentences :
        {device::event_sentences(link_.traffic().events), device::health_warnings(health)})

@@ -228,7 +228,7 @@ MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
   if (curve.left_out > 0)
     curve.notes.push_back(std::to_string(curve.left_out) +
                           (curve.left_out == 1 ? " row is" : " rows are") +
-                          " left out: a number is missing or not finite");
+                          " excluded: a number is missing or not finite");
   if (curve.x.empty())
     throw InputError({file, 0, 0}, "no row is left with a number in `" + curve.x_axis.column +
                                        "` and in `" + curve.y_axis.column +

@@ -514,7 +514,7 @@ void ConsistentWithInertia::set_stage(double duration) {
 
 std::optional<std::string> ConsistentWithInertia::find(const Motion& motion, const StepTo& to) {
   // An oscillating surface may reach a finger that does not touch it at rest. Places that the
-  // finger touches neither on the surface at rest nor on the moving surface are left out.
+  // finger touches neither on the surface at rest nor on the moving surface are excluded.
   skin->detect(to.finger, nullptr, rise(*part, motion.displacement))
       .erase_if([&](SphereContact& contact) {
         if (contact.approach > 0.0) return false;

@@ -265,7 +265,7 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
 }
 
 // The linear finite elements of the mesh are its coupled springs; those of a region without
-// stiffness are left out.
+// stiffness are excluded.
 BlockMatrix EnergyCoupling::stiffness(int without) const {
   std::vector<tissue::Isotropic> tissues;
   for (const Tissue& tissue : tissues_) tissues.push_back(tissue.elastic);

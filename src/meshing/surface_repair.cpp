@@ -233,7 +233,7 @@ namespace {
 using cgal_library::Mending;
 
 constexpr double most_missing = 0.02;  // of the area, that holes or crossing triangles may have
-constexpr double speck = 1e-3;         // of the volume, below which a part is left out
+constexpr double speck = 1e-3;         // of the volume, below which a part is excluded
 constexpr ChildLimits mending_limits{120.0, 8.0 * 1024 * 1024 * 1024};  // s, bytes
 
 // Vertices within a millionth of the size become one: the rounding of files in single precision.
@@ -428,7 +428,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
     text +=
         std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;
   if (!others.empty()) text += ", without " + others;
-  if (specks > 0) text += ", and " + many(specks, "speck") + " left out";
+  if (specks > 0) text += ", and " + many(specks, "speck") + " excluded";
   return text;
 }
 

@@ -211,7 +211,7 @@ class Search {
     // The time limit decides only whether there is a result, not which.
     const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
     if (spent >= time_limit_)
-      throw MeshError("no mesh as fine as asked for was found within " + rounded_text(time_limit_) +
+      throw MeshError("no mesh as fine as wanted was found within " + rounded_text(time_limit_) +
                       " s; ask for fewer nodes or allow more time");
     const geometry::Surface facets = geometry::facets(body);
     const std::size_t most = most_nodes(body, facets, largest);
@@ -419,7 +419,7 @@ std::string told(const geometry::Surface& before, std::size_t needles, const Rem
                      " triangles of the surface became " +
                      std::to_string(after.surface.triangles.size()) + " for the mesh";
   if (needles > 0) text += ", because " + std::to_string(needles) + " of them are needles";
-  return text + (needles > 0 ? "; " : ", because they are finer than the mesh asked for; ") +
+  return text + (needles > 0 ? "; " : ", because they are finer than the mesh wanted; ") +
          "the two surfaces are at most " + rounded_text(unit::mm.from_si(after.distance), 2) +
          " mm apart";
 }

@@ -47,9 +47,9 @@ struct ScenePicture {
 struct Answer {
   std::string model;     // which model, and why: "Chosen: layer, ... hertz would be 14 % low: ..."
   std::string error;     // the largest force (or strain) if the case has run, with its stated error
-  std::string left_out;  // which effects are left out, what each would change, and its remedy
+  std::string left_out;  // which effects are neglected, what each would change, and its remedy
   std::string verdict;   // of a live run: whether measured force and model agree
-  bool complete = true;  // whether nothing worth a remark is left out
+  bool complete = true;  // whether nothing that needs a warning is neglected
   std::optional<double> stated_error;  // relative, of the force or strain; empty if not estimated
 };
 

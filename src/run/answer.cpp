@@ -144,7 +144,7 @@ class Words {
     const std::string off = would + error_text(found->error) + " off";
     if (!std::isfinite(e_.thickness) && !thickness)
       return would + "far too low: the tissue is too thin for it.";
-    // The largest of what it leaves out.
+    // The largest of what it neglects.
     const double size = 1.0 / (1.0 + (thickness ? e_.sides : e_.size)) - 1.0;
     const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
     const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep) + e_.deep_error;
@@ -291,8 +291,8 @@ class LeftOuts {
   }
 
   void size() {
-    const std::string free = one_way()             ? "leave out `contact.coupling`"
-                             : scene_.choice.given ? "leave out `solver.model`"
+    const std::string free = one_way()             ? "remove `contact.coupling`"
+                             : scene_.choice.given ? "remove `solver.model`"
                                                    : "";
     if ((rung_.of == Model::hertz || one_way()) && std::abs(e_.size) > tolerance())
       omit("the size of the body", e_.size, would(e_.size), free);
@@ -319,7 +319,7 @@ class LeftOuts {
     if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
     const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;
     omit("counting the softness of the tissue once only", change, would(change),
-         "leave out `contact.coupling`", "the softness that counts twice");
+         "remove `contact.coupling`", "the softness that counts twice");
   }
 
   void large_strains() {
@@ -330,19 +330,19 @@ class LeftOuts {
           "large strains", most,
           "which may change the force by up to " + percent_text(most) + " where it is deepest",
           waves_matter()     ? "press less deep"
-          : mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
+          : mesh_is_tissue() ? "set `solver.model = \"solid\"` and remove `contact.coupling`"
                              : "set `solver.model = \"solid\"`");
     std::string remedy = "add `contact.depth = \"neo_hookean\"`";
     if (mesh_is_tissue())
       remedy = (waves_matter() ? remedy : "set `solver.model = \"solid\"`") +
-               " and leave out `contact.coupling`";
+               " and remove `contact.coupling`";
     omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
   }
 
   void viscosity() {
     if (!scene_.relaxation.elastic() || mesh_is_tissue() || e_.viscous <= 0.2 * tolerance()) return;
     std::string remedy = "add `contact.viscosity = \"tissue\"`";
-    if (one_way()) remedy += " and leave out `contact.coupling`";
+    if (one_way()) remedy += " and remove `contact.coupling`";
     omit("viscosity", e_.viscous, would(e_.viscous) + " while pressing", remedy, "viscosity");
   }
 

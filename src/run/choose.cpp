@@ -165,8 +165,8 @@ class Chooser {
     const bool moving = about(asked_.solver.integrator).inertia;
     const double ringing = moving ? scene::uniform_ringing(asked_) : 0.0;
     if (moving)
-      ask(Asked::inertia, ringing, tolerance(), "the body rings",
-          "share of the strain by which it rings");
+      ask(Asked::inertia, ringing, tolerance(), "the body vibrates",
+          "share of the strain by which it vibrates");
     choice_.found.inertia_matters = moving;
     const auto error_of_still = [&](const Rung& rung) {
       return rung.own_ratio ? even_error + std::max(uneven ? rung.uneven : 0.0, meshed)
@@ -213,7 +213,7 @@ class Chooser {
     ask(Asked::deep, std::abs(e.deep) + (e.depth_ratio ? 0.0 : e.deep_error), 0.2 * limit,
         deep_answer(e), e.depth_ratio ? "" : "bound of what large strains change");
     ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);
-    // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
+    // A fifth of the tolerance, because neglected viscosity adds to the model's error.
     ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
     ask(Asked::inertia, e.inertia, limit, inertia_answer());
     ask(Asked::shape_or_inclusion, 1.0, 0.0,
@@ -301,7 +301,7 @@ class Chooser {
     return std::abs(1.0 / (1.0 + change) - 1.0) + e.size_error;
   }
 
-  // What the depth leaves open: the error of its factor, or the effect that is left out. The factor
+  // What the depth leaves open: the error of its factor, or the neglected effect. The factor
   // is of statics; of what waves add to the force, the bound is open. At least 0.1 %, for a contact
   // that is never quite as small as a contact law assumes.
   [[nodiscard]] double of_depth(const Rung& rung, const Found& found) const {
@@ -330,7 +330,7 @@ class Chooser {
     return rung.inertia && moving && moves();
   }
 
-  // An effect of inertia that is left out. It counts from a fifth of the tolerance on, as depth and
+  // A neglected effect of inertia. It counts from a fifth of the tolerance on, as depth and
   // viscosity do.
   [[nodiscard]] double counted(double inertia) const {
     return inertia < 0.2 * tolerance() ? 0.0 : inertia;
@@ -371,13 +371,13 @@ class Chooser {
   [[nodiscard]] std::string viscous_answer() const {
     if (asked_.contact.viscosity == scenario::Contact::Viscosity::tissue)
       return "Lee and Radok's force while the contact grows, Ting's while it shrinks";
-    return "left out, because the scenario does not set `contact.viscosity`: the force is that of "
+    return "neglected, because the scenario does not set `contact.viscosity`: the force is that of "
            "the relaxed tissue";
   }
 
   [[nodiscard]] std::string inertia_answer() const {
     if (moves()) return "a mesh includes it, a formula does not";
-    return "left out of the force of this scenario: `consistent` includes it with "
+    return "neglected in the force of this scenario: `consistent` includes it with "
            "`viscosity` none, nodal_drag, or a solid that relaxes in the contact too; else use "
            "`resolved`";
   }

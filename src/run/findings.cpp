@@ -172,9 +172,9 @@ class Findings {
     const double period = 2.0 * std::numbers::pi / lowest_frequency(specimen) /
                           std::sqrt(specimen.law.instantaneous_ratio());
     if (scenario.output.interval < 0.5 * period) return;
-    remark("the body rings with a period of about " + quantity_text(period, unit::ms) +
+    remark("the body vibrates with a period of about " + quantity_text(period, unit::ms) +
            ", and rows are " + quantity_text(scenario.output.interval, unit::ms) +
-           " apart: the curve is not that of the ringing; leave out `solver.integrator`, or set "
+           " apart: the curve does not resolve it; remove `solver.integrator`, or set "
            "`output.interval` to a tenth of the period");
   }
 

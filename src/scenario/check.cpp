@@ -73,7 +73,7 @@ class Checker {
           reached.in_order)
         problem(path + ".keep",
                 "`slide` has no force to keep, for the finger does not press yet; put an `indent` "
-                "before it, or write `keep = \"travel\"`");
+                "before it, or write `keep = \"displacement\"`");
     }
   }
 
@@ -244,7 +244,7 @@ class Checker {
         problem(
             "region." + std::to_string(i + 1),
             "a `slab` is for a finger that comes from above; use a `tagged` region of a mesh, or "
-            "leave out `" +
+            "remove `" +
                 std::string(aside) + "`");
   }
 
@@ -315,7 +315,7 @@ class Checker {
     if (solver.integrator == Integrator::quasi_static &&
         scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag)
       problem("solver.integrator",
-              "`quasi_static` has no drag against the ground; set "
+              "`quasi_static` has no nodal drag; set "
               "`solver.integrator = \"backward_difference\"` or another "
               "viscosity");
   }
@@ -357,7 +357,7 @@ class Checker {
       const std::string meshed = models_that(std::mem_fn(&Rung::meshed));
       if (slide->keep == Slide::Keep::force)
         problem("step." + std::to_string(i + 1) + ".keep",
-                "`solid` slides at a depth; write `keep = \"travel\"`, or set " + meshed);
+                "`solid` slides at a depth; write `keep = \"displacement\"`, or set " + meshed);
       if (scenario_.contact.friction > 0.0)
         problem("contact.friction",
                 "`solid` slides without friction; leave `friction` out, or set " + meshed);
@@ -393,7 +393,7 @@ class Checker {
       const auto* slide = std::get_if<Slide>(&scenario_.steps[i]);
       if (slide != nullptr && slide->keep == Slide::Keep::force)
         problem("step." + std::to_string(i + 1) + ".keep",
-                "a slide cannot keep a force that relaxes; write `keep = \"travel\"`, or "
+                "a slide cannot keep a force that relaxes; write `keep = \"displacement\"`, or "
                 "`contact.viscosity = \"none\"`");
     }
   }

@@ -202,7 +202,7 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
                output.pressure_maps);
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
-  visitor.flag({"report", "A page with answer, figures and findings, `report.html`."},
+  visitor.flag({"report", "A page with the result, figures and findings, `report.html`."},
                output.report);
   visitor.choice({"paper",
                   "Which figure of Chen 2007 the page sets its results beside.",

@@ -48,7 +48,7 @@ Resolved::Contact resolve_contact(const Scenario& asked, const Found& found) {
       found.viscosity_matters ? contact.viscosity.value_or(Viscosity::none) : Viscosity::none,
       contact.depth.value_or(found.depth_matters ? Contact::Depth::neo_hookean
                                                  : Contact::Depth::hertz),
-      contact.direction.value_or(linear ? Contact::Direction::skin : Contact::Direction::sphere)};
+      contact.direction.value_or(linear ? Contact::Direction::surface : Contact::Direction::sphere)};
 }
 
 // Whether the mesh's motion cannot reach the force of a press, whatever the integrator, so that it

@@ -32,7 +32,7 @@ struct Resolved : PlainScenario {
   struct Contact : PlainContact {
     Viscosity viscosity = Viscosity::none;
     Depth depth = Depth::hertz;
-    Direction direction = Direction::skin;
+    Direction direction = Direction::surface;
   };
   struct Solver : PlainSolver {
     Model model = Model::hertz;

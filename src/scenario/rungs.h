@@ -99,7 +99,7 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .solid = true,
      .cost = {.once = 3.0}},
 });
-static_assert(is_complete<Model>(ladder), "the ladder has a row for every model, in their order");
+static_assert(is_complete<Model>(ladder), "the table has a row for every model, in their order");
 
 [[nodiscard]] constexpr const Rung& rung(Model model) { return ladder[as_index(model)]; }
 

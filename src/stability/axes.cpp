@@ -85,7 +85,7 @@ void along_size(Survey& survey) {
     } catch (const MeshError& error) {
       if (factor == 1.0) throw;
       survey.map.sentences.push_back("Elements " + number_text(factor) +
-                                     " times as long were left out: " + error.what() + ".");
+                                     " times as long were excluded: " + error.what() + ".");
       continue;
     }
     const auto& lengths = probed->scene.specimen->network.rest_length;

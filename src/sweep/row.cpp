@@ -42,7 +42,7 @@ std::optional<std::uint64_t> id_of(std::string_view text) {
 record::Table journal_row(const SweepRow& row) {
   record::Table values{{"name", "value"}, {}};
   for (const record::Finding& value : row.values) values.rows.push_back({value.name, value.value});
-  record::Table remarks{{"remark"}, {}};
+  record::Table remarks{{"warning"}, {}};
   for (const std::string& remark : row.remarks) remarks.rows.push_back({remark});
   const std::string curve = row.curve.columns.empty() ? "" : record::csv_text(row.curve);
   return {{"id", "attempt", "outcome", "reason", "name", "values", "remarks", "curve"},

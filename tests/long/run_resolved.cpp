@@ -105,7 +105,7 @@ TEST(Resolved, nodes_touch_or_are_free_and_none_pulls_or_overlaps) {
 }
 
 TEST(Resolved, the_base_carries_what_the_finger_presses_with) {
-  for (const char* direction : {"skin", "sphere"}) {
+  for (const char* direction : {"surface", "sphere"}) {
     Pressed pressed({std::string("contact.direction=") + direction}, 1.5e-3);
     const auto& body = pressed.mesh.body();
     Vector force;
@@ -166,7 +166,7 @@ TEST(Resolved, both_directions_are_the_same_for_shallow_presses_and_differ_for_d
   const auto ratio = [&](const std::string& travel) {
     auto settings = fine;
     settings.push_back("step.1.to=" + travel);
-    settings.emplace_back("contact.direction=skin");
+    settings.emplace_back("contact.direction=surface");
     const double skin = last_force(settings);
     settings.back() = "contact.direction=sphere";
     return last_force(settings) / skin;
@@ -187,7 +187,7 @@ TEST(Resolved, nonlinear_springs_take_the_spheres_normals_and_agree_with_linear_
     const double linear = last_force(settings);
     settings.back() = "solver.kinematics=nonlinear";
     const double nonlinear = last_force(settings);
-    settings.emplace_back("contact.direction=skin");
+    settings.emplace_back("contact.direction=surface");
     EXPECT_NE(last_force(settings), nonlinear);
     return 1.0 - nonlinear / linear;
   };

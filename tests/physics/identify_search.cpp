@@ -367,7 +367,7 @@ TEST(Identify, RefusesWhatTheDataCannotAnswer) {
   EXPECT_EQ(
       refusal(scene, few),
       "palpate: 2 usable points cannot determine 2 unknowns and the noise; record more points, or "
-      "leave out an `--unknown`");
+      "remove an `--unknown`");
   identify::Measurement flat = curve;
   std::fill(flat.y.begin(), flat.y.end(), 0.5);
   EXPECT_NE(refusal(scene, flat).find("is the same at every point"), std::string::npos);
@@ -398,7 +398,7 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
   const auto found = test::identified(scene, curve, {.profiles = false});
   ASSERT_EQ(found.notes.size(), 1U);
   EXPECT_EQ(found.notes[0], std::to_string(points) +
-                                " points are left out: the way back from the largest displacement");
+                                " points are excluded: the way back from the largest displacement");
   EXPECT_EQ(found.left_out, static_cast<int>(points));
   EXPECT_EQ(found.x.size(), points);  // up to 2.2 mm, where the deepest stands twice
 }
@@ -429,7 +429,7 @@ TEST(Identify, TheOffsetIsInTheScenario) {
 }
 
 // Of a compression and its hold, over time all points are taken and the programme is long enough;
-// over strain the hold is left out.
+// over strain the hold is excluded.
 TEST(Identify, TakesACompressionOverTimeOrStrain) {
   const IdentifyScene& over_time = test::identify_scene("compression");
   const auto whole = test::identified(over_time, test::clean_curve(over_time), {.profiles = false});
@@ -494,7 +494,7 @@ TEST(Identify, AnUncertainRadiusWidensTheInterval) {
             "`finger.radius=11 mm +- 0.2 mm`");
 }
 
-// A curve that an interrupt leaves out looks like one that the data do not determine. Whenever the
+// A curve that an interrupt excludes looks like one that the data do not determine. Whenever the
 // interrupt comes, there is the whole result or none.
 TEST(Identify, AnInterruptLeavesTheWholeResultOrNone) {
   const IdentifyScene& scene = test::identify_scene("creep of springs");

@@ -128,7 +128,7 @@ TEST(StabilityMap, LeavesOutMeshesThatCannotBeMade) {
   EXPECT_THROW(survey_axes(survey), Stopped);
   ASSERT_FALSE(survey.map.sentences.empty());
   EXPECT_NE(
-      survey.map.sentences.front().find("Elements 2 times as long were left out: no mesh near"),
+      survey.map.sentences.front().find("Elements 2 times as long were excluded: no mesh near"),
       std::string::npos)
       << survey.map.sentences.front();
   int sizes = 0;

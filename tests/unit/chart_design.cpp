@@ -245,7 +245,7 @@ TEST_F(Design, Refusals) {
             "one value, with `[sweep]` without it");
   EXPECT_EQ(refusal("[[step]]\nkind = \"indent\"\nto = \"1 N\"\n"),
             "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
-            "forces at equal travels; give a displacement");
+            "forces at equal displacements; give a displacement");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace palpate::test {
 namespace {
 
 // Lower-case words with one blank before, between and after them; what stands in back-quotes is to
-// be typed, and is left out.
+// be typed, and is excluded.
 std::string plain_words(const std::string& text) {
   std::string words = " ";
   bool typed = false;

@@ -161,7 +161,7 @@ TEST_F(ChartVerb, InterruptedItGoesOn) {
 TEST_F(ChartVerb, Refusals) {
   EXPECT_EQ(chart("[[step]]\nkind = \"indent\"\nto = \"1 N\"\n").err,
             "small.toml:3:6: a step to a force ends elsewhere in every configuration, and `palpate "
-            "chart` compares forces at equal travels; give a displacement\n");
+            "chart` compares forces at equal displacements; give a displacement\n");
   EXPECT_EQ(chart(half_space, {"--repeats", "0"}).code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }

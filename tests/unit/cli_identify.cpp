@@ -82,7 +82,7 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
   for (const char* name : {"curve.svg", "profile.svg"})
     EXPECT_EQ(SvgPicture(read_file(result / name)).faults(), std::vector<std::string>{}) << name;
   EXPECT_NE(read_file(result / "curve.svg").find(">Measured - model ("), std::string::npos)
-      << "gnuplot leaves out a label that has no place";
+      << "gnuplot omits a label that has no place";
 
   write_file(folder_ / "again.toml", read_file(result / "scenario.toml"));
   const auto run = palpate(folder_.path(), {"run", "again.toml"});

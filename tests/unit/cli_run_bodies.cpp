@@ -177,7 +177,7 @@ TEST_F(RunBodies, a_shallow_press_on_a_blunt_ridge_is_not_one_on_a_flat) {
     return std::get<double>(table.rows.front()[as_index(table.find(name))]);
   };
   const double error = found("mesh_error");
-  EXPECT_NEAR(error, 0.03 * 0.5 / 0.295, 1e-3);  // the width that is left out
+  EXPECT_NEAR(error, 0.03 * 0.5 / 0.295, 1e-3);  // the width that is excluded
   // Both with what inertia adds; the width is known before the press, too.
   EXPECT_NEAR(found("predicted_error"), found("stated_error"), 1e-9);
   EXPECT_NEAR(force(), 0.9194e-3, error * 0.9194e-3);

@@ -226,7 +226,7 @@ TEST(Prony, LiquidsExactly) {
     EXPECT_NEAR(fit.parameters[i].estimate, truth, 1e-8) << i;  // exact data
 }
 
-// A row without a strain is left out, like one without a stress.
+// A row without a strain is excluded, like one without a stress.
 TEST(Prony, ARowWithoutAHistoryIsLeftOut) {
   const RelaxationCurve curve = curve_of(PronySeries::Kind::relaxation);
   PronySeries series;

@@ -252,7 +252,7 @@ TEST(Regression, RefusesTooFewPoints) {
     FAIL() << "nothing was refused";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "the model `power` needs at least 3 points, and 1 is usable (2 left out: not "
+                 "the model `power` needs at least 3 points, and 1 is usable (2 excluded: not "
                  "finite, or x not above 0); record more points, or fit a model with fewer "
                  "parameters");
   }

@@ -292,7 +292,7 @@ TEST(FileMesh, OfAFineSurfaceWithAnEdgeLengthIsCoarserToo) {
   const FileMesh made =
       tetgen_file(sampled(geometry::Cuboid{}, 1e-3), {}, {.edge_length = 8e-3}, time_given);
   EXPECT_LT(made.mesh.nodes.size(), 1500u);
-  EXPECT_NE(made.remark.find("finer than the mesh asked for"), std::string::npos) << made.remark;
+  EXPECT_NE(made.remark.find("finer than the mesh wanted"), std::string::npos) << made.remark;
 }
 
 TEST(FileMesh, KeepsAGoodSurface) {

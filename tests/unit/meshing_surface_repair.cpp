@@ -98,7 +98,7 @@ TEST(SurfaceRepair, triangles_that_cross_are_replaced) {
 
 TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   const std::string speck = told(with(body(), body(), Vec3(0.1, 0, 0), 0.02, false), rounding);
-  EXPECT_NE(speck.find("part 1 of 2 is taken, and 1 speck left out"), std::string::npos) << speck;
+  EXPECT_NE(speck.find("part 1 of 2 is taken, and 1 speck excluded"), std::string::npos) << speck;
   const Surface two = with(body(), body(), Vec3(0.2, 0, 0), 0.5, false);
   const std::string text = told(two, rounding);
   EXPECT_NE(text.find("part 1 of 2 is taken, without part 2 near ("), std::string::npos) << text;
@@ -106,7 +106,7 @@ TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   EXPECT_NEAR(geometry::enclosed(second).volume, 0.125 * geometry::enclosed(body()).volume, 1e-12);
 }
 
-// However their triangles are turned; what lies in the cavity is left out.
+// However their triangles are turned; what lies in the cavity is excluded.
 TEST(SurfaceRepair, parts_inside_the_largest_are_cavities) {
   const double volume = geometry::enclosed(body()).volume;
   const Vec3 shift(0.02, 0.015, 0.01);

@@ -98,7 +98,7 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "`solver.volume = \"nodal\"` or `solver.model = \"coupled_springs\"`, or leave it out"},
       {"[[step]]\nkind = \"slide\"\nby = \"1 mm\"\nkeep = \"force\"\n[tissue]\nviscosity = "
        "\"kelvin_voigt\"\n",
-       "press.toml:7:8: a slide cannot keep a force that relaxes; write `keep = \"travel\"`, or "
+       "press.toml:7:8: a slide cannot keep a force that relaxes; write `keep = \"displacement\"`, or "
        "`contact.viscosity = \"none\"`"},
   });
   expect_refused({{"[solver]\nmodel = \"layer\"\n",

@@ -211,7 +211,7 @@ TEST(Response, EveryDesignIsDrawnInSilence) {
                                  force + ".csv", force + ".gp", force + ".svg"}));
 }
 
-// A part of a sweep may leave out whole curves, or all cases of the figure.
+// A part of a sweep may omit whole curves, or all cases of the figure.
 TEST(Response, OfAPartIsDrawnInSilence) {
   if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
   const std::string name = "response_force_at_1_mm_N";
