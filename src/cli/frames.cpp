@@ -134,15 +134,15 @@ class Table {
       sums.push_back(std::get<double>(cell(row, "sum_p50_ms")));
       order += (order.empty() ? "" : " < ") + name;
       table.rows.push_back(
-          {name + ": " + stages("paper_", "_ms"), stages("", "_p50_ms"), "differs",
+          {name + ": " + stages("paper_", "_ms"), stages("", "_p50_ms"), page::verdicts[1],
            "another computer: " + rounded_text(*paper / sums.back(), 2) + " times as fast"});
     }
     const bool grows = std::is_sorted(sums.begin(), sums.end());
     table.rows.push_back({"The time grows with the model: " + order,
-                          grows ? "so it does" : "it does not", grows ? "agrees" : "differs",
+                          grows ? "so it does" : "it does not", page::verdicts[grows ? 0 : 1],
                           "the same meshes within 3 % of the nodes"});
     table.rows.push_back({"Tissues and sizes of the models", "docs/paper.md",
-                          "the text does not say",
+                          page::verdicts[2],
                           "skin for cube and head, and the upper leg for the limb, are assumed"});
     return table;
   }

@@ -170,7 +170,7 @@ class AdhesiveFit {
     if (curve_.depth.front() < curve_.depth.back())
       for (std::vector<double>* each : {&curve_.depth, &curve_.force})
         std::reverse(each->begin(), each->end());
-    fit_.left_out = static_cast<int>(depth.size() - curve_.depth.size());
+    fit_.excluded = static_cast<int>(depth.size() - curve_.depth.size());
     if (finite > curve_.depth.size())
       fit_.notes.push_back(std::to_string(finite - curve_.depth.size()) +
                            (test_.way == ContactTest::Way::approach

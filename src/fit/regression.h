@@ -45,7 +45,7 @@ struct Fit {
   double r2 = Estimate::unknown;          // 1 - SSE / SST about the mean; NaN if y is constant
   double rmse = Estimate::unknown;        // sqrt(SSE / n), in the unit of y
   int n = 0;                              // points used
-  int left_out = 0;  // points that are not finite, or have x <= 0 in a model with ln x or x^n
+  int excluded = 0;  // points that are not finite, or have x <= 0 in a model with ln x or x^n
   double range_low = Estimate::unknown;  // smallest x used, before x_origin is subtracted
   double range_high = Estimate::unknown;
   double x_origin = 0.0;  // the curve is a function of (x - x_origin)

@@ -107,7 +107,7 @@ class UniaxialFit {
  private:
   void leave_out(std::size_t count, const std::string& why) {
     if (count == 0) return;
-    fit_.left_out += static_cast<int>(count);
+    fit_.excluded += static_cast<int>(count);
     fit_.notes.push_back(std::to_string(count) + (count == 1 ? " point is" : " points are") +
                          " excluded: " + why);
   }

@@ -198,7 +198,7 @@ class ViscousFit {
                            " points are excluded: the way back from the deepest row; `--segment "
                            "all` fits both ways, by Ting's contact");
     for (std::vector<double>* each : {&time_, &depth_, &force_}) each->resize(part.to);
-    fit_.left_out = static_cast<int>(time.size() - time_.size());
+    fit_.excluded = static_cast<int>(time.size() - time_.size());
     const auto [low, high] = std::minmax_element(depth_.begin(), depth_.end());
     low_ = *low;
     range_ = *high - *low;

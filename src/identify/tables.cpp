@@ -60,7 +60,7 @@ std::string combination_sentence(const Identification& found, const Combination&
 }
 
 std::string model_sentence(const Identification& found) {
-  const std::string model = scenario::rung(found.rung).word;
+  const std::string model = scenario::traits(found.model).word;
   const CurveWords& words = words_of(found.kind);
   std::string text = std::string(words.sentence) + ", by `" + model + "`";
   if (found.closed_form && found.scenario.uniform())
@@ -93,12 +93,13 @@ record::Table identified_table(const Identification& found) {
                    "interval",  "moved_down", "moved_up"};
   for (const Identified& one : found.unknowns) {
     const Unknown& unknown = one.unknown;
-    const std::optional<double> estimate = one.tied ? std::nullopt : std::optional(one.estimate);
+    const std::optional<double> estimate =
+        one.inseparable ? std::nullopt : std::optional(one.estimate);
     table.rows.push_back(
         {unknown.name(), unknown.unit_text(), cell(estimate, unknown), cell(one.std_error, unknown),
          cell(one.ci95_low, unknown), cell(one.ci95_high, unknown), word(one.at_bound),
-         word(!one.tied), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
-         one.tied ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
+         word(!one.inseparable), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
+         one.inseparable ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
          cell(one.moved_down, unknown), cell(one.moved_up, unknown)});
     if (unknown.unit_text().empty()) table.rows.back()[1] = Cell();
   }
@@ -153,7 +154,7 @@ record::Table profile_table(const Identification& found) {
 }
 
 EstimateTexts estimate_texts(const Identification& found, const Identified& one) {
-  if (one.tied) return {"not determined by itself", ""};
+  if (one.inseparable) return {"not determined by itself", ""};
   return {with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()),
           "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
               (one.by_profile ? ", by profile)" : ")") +
@@ -173,7 +174,7 @@ std::vector<std::string> identified_sentences(const Identification& found) {
     lines.push_back(combination_sentence(found, one));
   for (const GivenPart& part : found.givens)
     for (std::size_t i = 0; i < found.unknowns.size(); ++i)
-      if (const Unknown& unknown = found.unknowns[i].unknown; !found.unknowns[i].tied)
+      if (const Unknown& unknown = found.unknowns[i].unknown; !found.unknowns[i].inseparable)
         lines.push_back("Of this, `" + part.key + "` = " + part.value + " +- " + part.deviation +
                         " adds a standard error of " +
                         with_unit(unknown.shown(part.deviations[i]), unknown.unit_text()) +
@@ -181,7 +182,7 @@ std::vector<std::string> identified_sentences(const Identification& found) {
   const auto points_of = [](const Identification& one, const std::string& size) {
     const CurveWords& words = words_of(one.kind);
     return std::to_string(one.x.size()) + " points" +
-           (one.left_out > 0 ? " (" + std::to_string(one.left_out) + " excluded)" : "") + size +
+           (one.excluded > 0 ? " (" + std::to_string(one.excluded) + " excluded)" : "") + size +
            ", RMSE " + with_unit(words.y.from_si(one.rmse), words.y.symbol) + ", R2 " +
            rounded_text(one.r2, 6);
   };

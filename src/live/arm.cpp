@@ -147,7 +147,7 @@ class ArmLoop {
     const bool limited = real_ && !recording_;
     const double taken = limited ? std::min(passed, most_frames_behind * period_) : passed;
     model_time_ += taken;
-    loop_.left_out += passed - taken;
+    loop_.dropped += passed - taken;
     if (failed_) return;
     if (auto wrong = loop_.model.follow(offset_, model_time_)) {
       failed_ = true;

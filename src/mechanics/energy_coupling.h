@@ -18,7 +18,8 @@ namespace palpate::mechanics {
 // The difference between the body and a half-space of the tissue at the contact, both loaded by
 // 1 N, with the shape of Hertz's pressure, over the patch.
 struct BeyondHalfSpace {
-  double sinking = 0.0;        // m/N: s of theory.md [sinking], along the load, averaged with it
+  double surface_displacement =
+      0.0;                     // m/N: s of theory.md [sinking], along the load, averaged with it
   double error = 0.0;          // m/N: e of [sinking]; s + e is the better value
   double doubt = 0.0;          // m/N: what the flat faces of a round boundary may cost in s, and
                                // what wide tetrahedra may cost that e does not see
@@ -103,11 +104,11 @@ class EnergyCoupling {
 
   geometry::TetMesh mesh_;  // of the part
   std::vector<geometry::FaceUse> uses_;
-  const geometry::SmoothSurface* skin_;
-  std::vector<std::array<int, 3>> skin_triangles_;  // nodes of the part, ascending
-  std::map<std::array<int, 3>, int> triangle_of_;   // of the same nodes
-  std::vector<int> part_node_;                      // per vertex of the surface
-  std::vector<Tissue> tissues_;                     // per region
+  const geometry::SmoothSurface* outer_surface_;
+  std::vector<std::array<int, 3>> surface_triangles_;  // nodes of the part, ascending
+  std::map<std::array<int, 3>, int> triangle_of_;      // of the same nodes
+  std::vector<int> part_node_;                         // per vertex of the surface
+  std::vector<Tissue> tissues_;                        // per region
   std::vector<Element> elements_;
   std::vector<std::optional<Home>> homes_;  // per region
   std::vector<char> held_;

@@ -81,7 +81,7 @@ class PressedMesh {
   [[nodiscard]] integrate::Vector of_specimen(const integrate::Vector& of_part) const;
 
   MovingPart part_;
-  SkinContacts skin_;
+  SurfaceContacts outer_surface_;
   Coupling coupling_;
   std::vector<int> start_;  // nodes around which the part is chosen
   tissue::Reach reach_;     // of that part

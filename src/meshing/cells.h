@@ -33,7 +33,7 @@ struct Cells {
 struct NamedMesh {
   geometry::TetMesh mesh;
   std::map<std::string, int> names = {};
-  std::string remark = {};
+  std::string warning = {};
 };
 
 // The tetrahedra in all solids, which match across faces: every quadrangle is cut from its node

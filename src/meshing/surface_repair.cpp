@@ -484,9 +484,9 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
     throw MeshError(fault + (error.what() == fault ? "" : " (it could not be repaired by itself)"));
   }
   const std::string changed = changes(made, joined);
-  whole.remark = "the surface of " + name + " was mended: " +
-                 (changed.empty() && taken.empty() ? "all triangles turned outwards" : changed) +
-                 (changed.empty() || taken.empty() ? "" : "; ") + taken;
+  whole.warning = "the surface of " + name + " was mended: " +
+                  (changed.empty() && taken.empty() ? "all triangles turned outwards" : changed) +
+                  (changed.empty() || taken.empty() ? "" : "; ") + taken;
   return whole;
 }
 

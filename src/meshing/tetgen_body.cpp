@@ -442,7 +442,7 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
     auto better =
         remeshed(surface, target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length);
     if (!better) return false;
-    made.remark = told(surface, needles, *better);
+    made.warning = told(surface, needles, *better);
     surface = std::move(better->surface);
     return true;
   };
@@ -467,9 +467,9 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
   made.mesh = meshed({.edge_length = spacing_of(surface)});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);
-  made.remark += (made.remark.empty() ? "" : "; ") + std::string("the mesh has ") +
-                 std::to_string(made.mesh.nodes.size()) + " nodes instead of " +
-                 std::to_string(target.nodes) + ", because it keeps the surface's vertices";
+  made.warning += (made.warning.empty() ? "" : "; ") + std::string("the mesh has ") +
+                  std::to_string(made.mesh.nodes.size()) + " nodes instead of " +
+                  std::to_string(target.nodes) + ", because it keeps the surface's vertices";
   return made;
 }
 

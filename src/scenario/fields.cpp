@@ -27,22 +27,23 @@ using namespace words;
 Conditions::Conditions(const Scenario& scenario) {
   const bool meshed = scenario.meshed();
   const std::optional<Model>& model = scenario.solver.model;
-  const std::string when = !meshed && !model ? "on another `tissue.shape` than `half_space`"
-                                             : "with " + models_that(std::mem_fn(&Rung::meshed));
+  const std::string when = !meshed && !model
+                               ? "on another `tissue.shape` than `half_space`"
+                               : "with " + models_that(std::mem_fn(&ModelTraits::meshed));
   mesh = {meshed, when, Use::Otherwise::note};
   mesh_physics = {meshed, when};
-  springs = meshed
-                ? Use{!model || rung(*model).independent(),
-                      "with " + models_that(std::mem_fn(&Rung::independent)), Use::Otherwise::note}
-                : mesh;
-  based = model && rung(*model).thickness ? Use{} : mesh;
-  formula = {!model || rung(*model).formula(), "with " + models_that(std::mem_fn(&Rung::formula)),
-             Use::Otherwise::note};
+  springs = meshed ? Use{!model || traits(*model).independent(),
+                         "with " + models_that(std::mem_fn(&ModelTraits::independent)),
+                         Use::Otherwise::note}
+                   : mesh;
+  based = model && traits(*model).thickness ? Use{} : mesh;
+  formula = {!model || traits(*model).formula(),
+             "with " + models_that(std::mem_fn(&ModelTraits::formula)), Use::Otherwise::note};
   // If steps of both kinds are mixed, the mixture is reported instead of the keys of the finger.
   const bool presses = !std::all_of(scenario.steps.begin(), scenario.steps.end(), loads_end_faces);
   finger = {presses || scenario.steps.empty(),
             "by steps with a finger (indent, hold, retract, slide)"};
-  held = (model ? rung(*model).sides : meshed) ? finger : mesh;
+  held = (model ? traits(*model).sides : meshed) ? finger : mesh;
   pressed_mesh = meshed ? Use{finger.used, finger.when, Use::Otherwise::note} : mesh;
 }
 
@@ -507,7 +508,7 @@ bool PlainScenario::uniform() const {
 }
 
 bool Scenario::meshed() const {
-  return solver.model ? rung(*solver.model).meshed()
+  return solver.model ? traits(*solver.model).meshed()
                       : !std::holds_alternative<HalfSpace>(tissue.shape);
 }
 

@@ -16,7 +16,7 @@
 #include "geometry/curvature.h"
 #include "geometry/shapes.h"
 #include "integrate/central_difference.h"
-#include "scenario/rungs.h"
+#include "scenario/model_traits.h"
 #include "tissue/coupled.h"
 #include "tissue/stiffness.h"
 #include "tissue/supports.h"

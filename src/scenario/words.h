@@ -77,7 +77,7 @@ inline constexpr auto directions = words_of<Contact::Direction>(
      {"sphere", "the sphere's normals at the displaced nodes"}});
 inline constexpr Word auto_models{
     "auto", "the cheapest model that meets `tolerance`, one for all cases of a sweep"};
-inline constexpr Words<Model, ladder.size()> models(ladder);
+inline constexpr Words<Model, model_table.size()> models(model_table);
 inline constexpr Word auto_volumes{"auto",
                                    "`nodal` with `coupled_springs`, `none` with `mass_spring`"};
 inline constexpr auto volumes =

@@ -85,7 +85,7 @@ Expected expected_widths(const IdentifyScene& scene) {
 }
 
 // So few or so many inside happen to a right interval once in a thousand times on either side; the
-// noise is the same every time. Few repeats can show gross faults only: hundreds, of every rung,
+// noise is the same every time. Few repeats can show gross faults only: hundreds, of every model,
 // are in docs/identify.md, by tests/bench/coverage.cpp.
 void expect_covered(const char* name, int repeats) {
   const IdentifyScene& scene = test::identify_scene(name);

@@ -56,6 +56,8 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
             std::string::npos);
   EXPECT_EQ(SvgPicture(read_file(folder_ / "out/small_chart/chart.svg")).faults(),
             std::vector<std::string>{});
+  EXPECT_NE(headline_of(folder_ / "out/small_chart/report.html").find("the cheapest within"),
+            std::string::npos);
   EXPECT_EQ(faults_of_pages(folder_ / "out/small_chart", {"report.html"}, Scheme::dark),
             std::vector<std::string>{});
   const record::Table all = table();

@@ -233,7 +233,7 @@ TEST(Prony, ARowWithoutAHistoryIsLeftOut) {
   series.history.samples.assign(curve.x.size(), 1.0);
   series.history.samples[200] = std::nan("");
   const Fit fit = fit_prony(curve.x, curve.y, series);
-  EXPECT_EQ(fit.left_out, 1);
+  EXPECT_EQ(fit.excluded, 1);
   EXPECT_NEAR(fit.parameters[4].estimate, 2.0, 1e-6);  // exact data
 }
 

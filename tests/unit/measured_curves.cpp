@@ -287,7 +287,7 @@ TEST(Measured, WhatIsMissingIsLeftOutAndCounted) {
   const DataLayout layout{.x = "depth_mm", .y = "force_N"};
   const MeasuredCurve curve = read(text, layout);
   expect_curve(curve);
-  EXPECT_EQ(curve.left_out, 3);
+  EXPECT_EQ(curve.excluded, 3);
   EXPECT_EQ(curve.lines, (std::vector<int>{2, 6}));
   EXPECT_EQ(curve.notes,
             std::vector<std::string>{"3 rows are excluded: a number is missing or not finite"});
@@ -296,7 +296,7 @@ TEST(Measured, WhatIsMissingIsLeftOutAndCounted) {
   const MeasuredCurve kept = read(text, all);
   ASSERT_EQ(kept.x.size(), 5U);
   EXPECT_TRUE(std::isnan(kept.x[1]));
-  EXPECT_EQ(kept.left_out, 0);
+  EXPECT_EQ(kept.excluded, 0);
 }
 
 TEST(Measured, WhatCanBeReadInTwoWaysIsRefused) {
