@@ -111,8 +111,8 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
     cases = {worst.empty() ? cases.front() : std::array{worst, worst}};
   }
   if (cases.empty())  // of other names: the first of both
-    cases = {{names.empty() ? "" : names.front(),
-              wanted_names.empty() ? "" : wanted_names.front()}};
+    cases = {
+        {names.empty() ? "" : names.front(), wanted_names.empty() ? "" : wanted_names.front()}};
   plot::Figure figure{.name = "overlay",
                       .title = file.file,
                       .x_label = x,
@@ -125,7 +125,8 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
            .case_name = cases[i][wanted ? 1 : 0],
            .x_column = x,
            .y_column = y,
-           .label = (cases[i][0].empty() ? "" : cases[i][wanted ? 1 : 0] + ", ") + (wanted ? "wanted" : "got"),
+           .label = (cases[i][0].empty() ? "" : cases[i][wanted ? 1 : 0] + ", ") +
+                    (wanted ? "wanted" : "got"),
            .colour = 2 * i + (wanted ? 1 : 0),
            .dashed = wanted});
   return figure;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"

@@ -412,9 +412,9 @@ class Explanation {
                          scenario::traits(forecast.model).word;
       text.resize(22, ' ');
       line(text + (forecast.cannot.empty() ? "error " + error_text(forecast.known(mesh_error)) +
-                                               (on_mesh ? " on this mesh, about " : ", about ") +
-                                               rounded_text(forecast.seconds, 1) + " s to set up"
-                                         : "cannot: " + forecast.cannot));
+                                                 (on_mesh ? " on this mesh, about " : ", about ") +
+                                                 rounded_text(forecast.seconds, 1) + " s to set up"
+                                           : "cannot: " + forecast.cannot));
     }
     if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty())
       line("  note         " + text);

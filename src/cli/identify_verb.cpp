@@ -213,8 +213,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   if (command.noise == "relative") options.noise = identify::Noise::relative;
 
   // Nothing is kept until the search has ended, so that an interrupt may end the program at once.
-  std::optional<ProgressLine> ticker(std::in_place, talk,
-                                     [&](double) { return family.name; });
+  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) { return family.name; });
   identify::Identification found = identify::identify(pairs, unknowns, options);
   identify::carry_givens(found, measured.front(), family, givens, options.noise);
   ticker.reset();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/numerics.h"
 #include "base/stop_scope.h"
@@ -108,7 +109,7 @@ class Search {
     Identification& found = part.found;
     found.kind = prepared.curve->kind();
     found.given = prepared.given;
-    found.model = prepared.curve->fixed().solver.model;
+    found.taken = prepared.curve->fixed().solver.model;
     found.worst_error = prepared.worst_error;
     found.excluded = prepared.excluded;
     found.notes = std::move(prepared.notes);
@@ -145,7 +146,7 @@ class Search {
     const Identification& first = parts_.front().found;
     found_.kind = first.kind;
     found_.given = first.given;
-    found_.model = first.model;
+    found_.taken = first.taken;
     found_.worst_error = first.worst_error;
     found_.closed_form = first.closed_form;
     if (joint()) weigh_pairs();
@@ -201,7 +202,7 @@ class Search {
     return "the curve cannot be evaluated in the ranges";
   }
 
-  [[nodiscard]] std::string model_word() const { return scenario::traits(found_.model).word; }
+  [[nodiscard]] std::string model_word() const { return scenario::traits(found_.taken).word; }
 
   void find_best() {
     const SearchResult result = search_from_several(problem_, options_.searches);
@@ -576,7 +577,7 @@ class Search {
       for (const Part& part : parts_) found_.pairs.push_back(part.found);
     found_.warnings =
         warnings_of(found_, {weighted, noise_, model_word()},
-                    scenario::resolve(first.curve->at(estimates_of(first)), found_.model));
+                    scenario::resolve(first.curve->at(estimates_of(first)), found_.taken));
   }
 
   void note(const Part& part, const std::string& text) {

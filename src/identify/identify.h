@@ -73,7 +73,7 @@ struct Identification {
   std::vector<Identification> pairs;
   CurveKind kind = CurveKind::force_travel;
   scenario::Scenario scenario;  // whole loading history, every `auto` resolved, with the estimates
-  scenario::Model model = scenario::Model::hertz;
+  scenario::Model taken = scenario::Model::hertz;
   bool given = false;                     // the scenario names the model
   std::optional<double> predicted_error;  // estimated relative error of the model at the estimates
   double worst_error = 0.0;               // the largest estimate over the ranges

@@ -60,7 +60,7 @@ std::string combination_sentence(const Identification& found, const Combination&
 }
 
 std::string model_sentence(const Identification& found) {
-  const std::string model = scenario::traits(found.model).word;
+  const std::string model = scenario::traits(found.taken).word;
   const CurveWords& words = words_of(found.kind);
   std::string text = std::string(words.sentence) + ", by `" + model + "`";
   if (found.closed_form && found.scenario.uniform())

@@ -84,7 +84,13 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
     std::vector<std::string> names;
     for (const Extra& extra : extras()) names.emplace_back(extra.name);
     for (const auto& key : keys) names.push_back(key.path);
-    const auto near = nearest(name, names);
+    auto near = nearest(name, names);
+    if (!near) {  // without the table before it: `yong_modulus`
+      std::vector<std::string> last;
+      for (const std::string& one : names) last.push_back(one.substr(one.rfind('.') + 1));
+      if (const auto part = nearest(name, last))
+        near = names[as_index(std::find(last.begin(), last.end(), *part) - last.begin())];
+    }
     refuse(text, "names no number of this scenario" +
                      (near ? "; did you mean `" + *near + "`?"
                            : "; `palpate manual` lists the keys, and `contact_point`, "
@@ -110,7 +116,8 @@ Unknown read_unknown(const std::string& text, const Parts& parts,
     if (parts.key == extra.name) unknown.what = extra.what;
   unknown.low = bound(text, key.unit ? with_unit(parts.low, parts.high) : parts.low, key.unit);
   unknown.high = bound(text, parts.high, key.unit);
-  if (!(unknown.low < unknown.high)) refuse(text, "wants a lower bound below the upper one; exchange the two");
+  if (!(unknown.low < unknown.high))
+    refuse(text, "wants a lower bound below the upper one; exchange the two");
   const Range& range = key.range;
   if (!range.holds(unknown.low) || !range.holds(unknown.high)) {
     std::string limits;

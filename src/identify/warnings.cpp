@@ -42,7 +42,7 @@ std::vector<std::string> warnings_of(const Identification& found,
   for (const Identification* one : views(found))
     if (one->predicted_error && *one->predicted_error > with.solver.tolerance)
       warnings.push_back("the estimated error of `" +
-                         std::string(scenario::traits(one->model).word) + "` is " +
+                         std::string(scenario::traits(one->taken).word) + "` is " +
                          percent_text(*one->predicted_error) +
                          " here, and the estimates are wrong by about as much" +
                          (one->given ? "; leave `solver.model` to `auto`" : ""));

@@ -251,11 +251,10 @@ void add_fit(Rows& rows, const std::vector<fit::NamedFit>& fits) {
     }
   }
   if (!std::isfinite(least) || !std::isfinite(power_low)) return;
-  rows.add("The curves are drawn as F = a + b ln h",
-           "R² of " + range(least, most, 3), agrees(false),
+  rows.add("The curves are drawn as F = a + b ln h", "R² of " + range(least, most, 3),
+           agrees(false),
            "eq. (2) gives a convex h^(3/2); a logarithm is concave and starts below zero");
-  rows.add("Eq. (2): the exponent of h is 1.5",
-           range(power_low, power_high, 5),
+  rows.add("Eq. (2): the exponent of h is 1.5", range(power_low, power_high, 5),
            agrees(std::abs(power_low - 1.5) < 5e-3 && std::abs(power_high - 1.5) < 5e-3),
            "the power law fitted to the rows");
 }
@@ -339,8 +338,7 @@ page::Markup paper_section(const scenario::Family& family, const Records& record
     add_strains(rows, family, records);
   }
   if (rows.table.rows.empty()) return {};
-  rows.add("Numbers along the curves: none are printed", "in the CSV files",
-           page::verdicts[2],
+  rows.add("Numbers along the curves: none are printed", "in the CSV files", page::verdicts[2],
            "what can be compared are the statements and equations of the text");
   return element("div", page::table("The paper beside this run", rows.table), {{"class", "whole"}});
 }
@@ -478,19 +476,20 @@ std::string first_statement(const std::string& text) {
   return text.substr(0, std::min(text.find("; "), text.find(". ")));
 }
 
-// What is neglected, without remedies: `viscosity, which would add 36 % to the force while
-// pressing, and 2 other effects`.
+// The largest effect that is neglected, with its remedy, and how many more there are: `viscosity,
+// which would add 36 % to the force while pressing; add ... (and 2 other effects)`.
 std::string neglected(const record::Answer& answer) {
-  std::string text = first_statement(answer.neglected);
+  const std::string_view other = " Also neglected: ";
+  std::string text = answer.neglected.substr(0, answer.neglected.find(other));
   if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
   int others = 0;
-  const std::string_view other = " Also neglected: ";
   for (std::size_t at = answer.neglected.find(other); at != std::string::npos;
        at = answer.neglected.find(other, at + 1))
     ++others;
   if (text.ends_with('.')) text.pop_back();
   if (others > 0)
-    text += ", and " + std::to_string(others) + (others == 1 ? " other effect" : " other effects");
+    text +=
+        " (and " + std::to_string(others) + (others == 1 ? " other effect)" : " other effects)");
   return text;
 }
 
@@ -516,7 +515,8 @@ record::Table case_table(const Records& records) {
   record::Table table{{"case", "largest value", "error", "model", "neglected"}, {}};
   for (const record::CaseRecord& record : records)
     table.rows.push_back({record.name, peak_words(record).second, peak_error(record),
-                          finding_word(record, "model"), neglected(record.answer)});
+                          finding_word(record, "model"),
+                          first_statement(neglected(record.answer))});
   return table;
 }
 
@@ -536,6 +536,8 @@ void add_answer(page::Page& page, const Records& records) {
     if (records.size() <= most_answers)
       page.answer(
           element("div", page::table("Every case", case_table(records)), {{"class", "whole"}}));
+    else
+      page.answer({first_statement(lines[0]), first_statement(lines[2])});
   }
 }
 

@@ -160,7 +160,7 @@ void probe_locking(Survey& survey) {
       FailureRow row;
       row.failure = Failure::locking;
       row.model = model.word + std::string(", volume ") +
-                   scenario::words::word(scenario::words::volumes, volume);
+                  scenario::words::word(scenario::words::volumes, volume);
       row.setting = ratios[1];
       row.setting_unit = "Poisson's ratio";
       row.measure = "stiffness where it is pressed over that at 0.3";

@@ -209,7 +209,7 @@ std::string curve_plots(const Response& response) {
     // The brightest colours are excluded, being hard to see on white; words have no order.
     const std::string colour = named || !response.along
                                    ? plot::line_colours[j % plot::line_colours.size()]
-                                   : plot::palette_colour(0.88 * share);
+                                   : plot::palette_colour(plot::brightest_line * share);
     const std::string title =
         !response.along
             ? "notitle"

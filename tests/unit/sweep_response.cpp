@@ -243,6 +243,9 @@ TEST(Response, AScriptIsTheSameTwice) {
   const std::string script = response_sheet(*made).script;
   EXPECT_NE(script.find("set logscale x"), std::string::npos);
   EXPECT_NE(script.find("set logscale cb"), std::string::npos);
+  EXPECT_NE(script.find("linecolor rgb '#" + plot::palette_colour(plot::brightest_line)),
+            std::string::npos)
+      << "the last curve has a contrast of 3 to white";
   EXPECT_NE(script.find("set xlabel 'tissue.young_modulus (kPa)'"), std::string::npos);
 }
 
