@@ -116,7 +116,7 @@ struct SphereContact {
   double radiated = 0.0;    // N, the part of `force` for waves that the mesh cannot resolve
   double deep = 1.0;        // the factor [deep] of a deep press, in the law's `part` too
   double compliance = 0.0;  // m/N, C_ii of docs/theory.md [contacts]
-  double surface_displacement_error = 0.0;  // m/N, e of docs/theory.md [sinking]
+  double surface_displacement_error = 0.0;  // m/N, e of docs/theory.md [compliance]
   double surface_displacement_doubt = 0.0;  // m/N, BeyondHalfSpace::doubt
   double stiffness = 0.0;       // N/m, derivative of `force` with respect to `depth`; where inertia
                                 // reaches the force, to the finger's position, within a step
@@ -139,7 +139,7 @@ struct SphereContact {
 [[nodiscard]] double peak_pressure(const SphereContact& contact);
 
 // The mesh's own error in the contact's force, a fraction of it; 0 where the law alone gives it.
-//                                                                   docs/theory.md [sinking]
+//                                                                docs/theory.md [compliance]
 [[nodiscard]] double mesh_error(const SphereContact& contact);
 
 // Position of the finger and the state of its contacts at one moment.

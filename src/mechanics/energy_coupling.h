@@ -19,8 +19,8 @@ namespace palpate::mechanics {
 // 1 N, with the shape of Hertz's pressure, over the patch.
 struct BeyondHalfSpace {
   double surface_displacement =
-      0.0;                     // m/N: s of theory.md [sinking], along the load, averaged with it
-  double error = 0.0;          // m/N: e of [sinking]; s + e is the better value
+      0.0;                     // m/N: s of theory.md [compliance], along the load, averaged with it
+  double error = 0.0;          // m/N: e of [compliance]; s + e is the better value
   double doubt = 0.0;          // m/N: what the flat faces of a round boundary may cost in s, and
                                // what wide tetrahedra may cost that e does not see
   std::vector<double> errors;  // m/N, both per tetrahedron of the part
@@ -32,7 +32,7 @@ struct BeyondHalfSpace {
 // The displacement under a contact is the half-space's, known in closed form, plus a rest that is
 // smooth under the contact; only the rest is solved for, with the linear finite elements of the
 // mesh, which coupled springs are. It is loaded and read through the same nodal loads.
-//                                                      docs/theory.md [split], [sinking]
+//                                                      docs/theory.md [split], [compliance]
 class EnergyCoupling {
  public:
   // `held` has the supports' flags, one per degree of freedom of the part. Moduli are

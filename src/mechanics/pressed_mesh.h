@@ -36,7 +36,7 @@ class PressedMesh {
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
 
   // The mesh's error in what it sinks under such a contact, per tetrahedron of the moving part,
-  // m/N; for `consistent`.                                         docs/theory.md [sinking]
+  // m/N; for `consistent`.                                      docs/theory.md [compliance]
   [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
 
   // One step of the mesh alone, under the forces of `touch`; public for timing.

@@ -12,7 +12,7 @@ namespace palpate::mechanics {
 namespace {
 
 // The error that is stated after the correction s + e: half of e, and more where e is not small.
-// Measured on the bodies of docs/accuracy.md.                   docs/theory.md [sinking]
+// Measured on the bodies of docs/accuracy.md.                docs/theory.md [compliance]
 constexpr double stated_share = 0.5;
 
 // What a mesh leaves open even where e is zero: the curvature read from its surface, the quadrature

@@ -45,7 +45,7 @@ struct Expected {
 // The mesh's own error in the static force at the largest displacement of the loading history, a
 // fraction of it. Nothing without a finger on a mesh with `consistent`, or where the contact has no
 // solution.
-//                                                                   docs/theory.md [sinking]
+//                                                                docs/theory.md [compliance]
 [[nodiscard]] std::optional<double> mesh_error(const scene::Scene& scene);
 
 }  // namespace palpate::run
