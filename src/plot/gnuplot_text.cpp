@@ -103,7 +103,8 @@ std::string gnuplot_logarithmic(const std::string& axis, double low, double high
       // At least five labels wherever there is room for them.
       const bool labelled = digit == 1                 ? power % apart == 0
                             : digit == 2 || digit == 5 ? decades < 2.6
-                            : digit == 3 ? decades < 1.7 || (decades >= 2.6 && decades < 5.0)
+                            : digit == 3
+                                ? decades < 1.7 || (decades >= 2.6 && decades < 5.0 && axis != "x")
                             : digit == 7 ? decades < 1.7
                             : digit == 4 ? decades < 0.9
                                          : decades < 0.5;
