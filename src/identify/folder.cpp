@@ -57,6 +57,12 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
     page.headline(first.unknown.name() + " " + value, interval);
     lines.erase(lines.begin());
+  } else if (const auto known = std::find_if(
+                 lines.begin(), lines.end(),
+                 [](const std::string& line) { return line.starts_with("Determined is "); });
+             known != lines.end()) {
+    page.headline("Determined is", known->substr(14));
+    lines.erase(known);
   }
   page.answer(lines);
   page.section("Figures", page::all_figures(folder, figure_words));

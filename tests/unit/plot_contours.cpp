@@ -1,14 +1,14 @@
 // Lines of equal value on grids, and round numbers for them.
 #include "plot/contours.h"
-#include "plot/gnuplot_text.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <regex>
 
-#include <cmath>
-#include <limits>
+#include "plot/gnuplot_text.h"
 
 namespace palpate::plot {
 namespace {
