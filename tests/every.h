@@ -18,11 +18,11 @@ std::vector<std::string> every(const std::array<Word, count>& words,
   but.emplace_back("auto");
   std::vector<std::string> chosen;
   for (const Word& word : words) {
-    const auto left_out = std::find(but.begin(), but.end(), word.word);
-    if (left_out == but.end())
+    const auto neglected = std::find(but.begin(), but.end(), word.word);
+    if (neglected == but.end())
       chosen.emplace_back(word.word);
     else
-      but.erase(left_out);
+      but.erase(neglected);
   }
   std::erase(but, "auto");  // not every choice has it
   if (!but.empty()) throw std::invalid_argument("no word `" + but.front() + "`");

@@ -134,4 +134,19 @@ inline std::string project_file(const std::string& name) {
   return std::string(PALPATE_SOURCE_DIR) + "/" + name;
 }
 
+// The number with which a page begins, and what stands beside it.
+inline std::string headline_of(const fs::path& page) {
+  const std::string html = read_file(page), begin = "<p class=\"big\">";
+  const std::size_t from = html.find(begin);
+  if (from == std::string::npos || html.find("<section") < from) return "";
+  std::string words;
+  bool tag = false;
+  for (std::size_t at = from; at < html.find("</p>", from); ++at) {
+    tag = html[at] == '<' || tag;
+    if (!tag) words += html[at];
+    if (html[at] == '>') tag = false;
+  }
+  return words;
+}
+
 }  // namespace palpate::test

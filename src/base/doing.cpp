@@ -7,26 +7,26 @@
 namespace palpate {
 namespace {
 
-struct Doing {
+struct Now {
   std::mutex mutex;
-  std::string text;
+  Doing doing;
 };
 
-Doing& now_doing() {
-  static Doing doing;
-  return doing;
+Now& now() {
+  static Now one;
+  return one;
 }
 
 }  // namespace
 
-void set_doing(std::string text) {
-  const std::scoped_lock lock(now_doing().mutex);
-  now_doing().text = std::move(text);
+void set_doing(Doing next) {
+  const std::scoped_lock lock(now().mutex);
+  now().doing = std::move(next);
 }
 
-std::string doing() {
-  const std::scoped_lock lock(now_doing().mutex);
-  return now_doing().text;
+Doing doing() {
+  const std::scoped_lock lock(now().mutex);
+  return now().doing;
 }
 
 }  // namespace palpate

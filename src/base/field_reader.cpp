@@ -256,6 +256,7 @@ class Reader final : public FieldVisitor {
         std::replace(point.begin(), point.end(), ',', '.');
         inside = whole_number(point);
       }
+      if (given && trimmed(given->rest) == "%") inside = given->value / 100.0;
       wrong_type(key, node, "a pure number", inside ? number_text(*inside) : "0.5");
       return false;
     }

@@ -97,6 +97,12 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
       best = candidate;
     }
   }
+  if (best || word.size() < 4) return best;
+  for (const std::string& candidate : known) {  // `modulus` of `young_modulus`
+    if (candidate.find(word) == std::string::npos) continue;
+    if (best) return std::nullopt;
+    best = candidate;
+  }
   return best;
 }
 

@@ -89,6 +89,12 @@ std::optional<Scale> foreign_scale(std::string_view text) {
   return power;
 }
 
+// The same with pounds of mass: `lb/ft3`.
+std::optional<Scale> mass_scale(std::string_view text) {
+  if (text == "lb" || text == "lbs" || text == "lbm") return Scale{0.45359237, 1, {.kg = 1}};
+  return foreign_scale(text);
+}
+
 // Parses a unit expression; empty if it is not one.
 std::optional<Scale> parse_unit(std::string_view text,
                                 std::optional<Scale> (*scale_of)(std::string_view) = symbol_scale) {
@@ -149,6 +155,7 @@ const std::vector<UnitWord>& unit_words() {
                       time = unit::s.dimension, stress = unit::kPa.dimension,
                       rate = unit::per_second.dimension;
   static const std::vector<UnitWord> table{
+      {"mph", "mph", {0.44704, 1, unit::mm_per_s.dimension}},
       {"sec", "s", {1, 1, time}},
       {"secs", "s", {1, 1, time}},
       {"second", "s", {1, 1, time}},
@@ -306,11 +313,12 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
     const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
     if (unit_text.empty()) refuse(wanted, " with its unit" + got() + remedy);
     if (parsed) refuse(wanted, got() + ", " + dimension_name(parsed->dimension) + remedy);
-    const auto foreign = parse_unit(unit_text, foreign_scale);
-    if (foreign && foreign->dimension == wanted.dimension)
-      refuse(wanted, got() + " with the unknown unit `" + unit_text + "`; write it as `" +
-                         rounded_text(wanted.from_si(foreign->to_si(number->value)), 15) + " " +
-                         wanted.symbol + "`");
+    for (const auto& scale_of : {foreign_scale, mass_scale})
+      if (const auto foreign = parse_unit(unit_text, scale_of);
+          foreign && foreign->dimension == wanted.dimension)
+        refuse(wanted, got() + " with the unknown unit `" + unit_text + "`; write it as `" +
+                           rounded_text(wanted.from_si(foreign->to_si(number->value)), 15) + " " +
+                           wanted.symbol + "`");
     if (unit_text.size() > 1 && unit_text[0] == ',' && std::isdigit(unit_text[1]) != 0) {
       std::string whole = digits;
       std::erase(whole, '.');  // between thousands

@@ -105,7 +105,7 @@ class Measurer {
       chart.truth = truth_of(known->second);
     } else {
       chart.truth = find_truth(asked_, i);
-      set_doing("");
+      set_doing({""});
       journal_.add_reference(name, history_table(chart.truth));
     }
     chart.reference_error = own_error(one.scenario, chart.truth.moments).greatest;
@@ -276,9 +276,9 @@ class Measurer {
     if (kept != journal_.references().end()) {
       found = truth_of(kept->second);
     } else {
-      Variant rung = one.variant;
-      rung.settings = {"solver.model=" + one.model};
-      if (const auto exact = exact_in_time(asked_, rung, known_modes_))
+      Variant traits = one.variant;
+      traits.settings = {"solver.model=" + one.model};
+      if (const auto exact = exact_in_time(asked_, traits, known_modes_))
         found = {"modal", "exact in time", *exact};
       StopScope::end_if_stopped();
       journal_.add_reference(name, history_table(found));

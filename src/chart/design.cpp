@@ -118,11 +118,11 @@ class Designer {
         one_(asked.family.cases[of_case]),
         base_(one_.scenario),
         shapes_(shapes) {
-    rung_ = run::choose(opened(asked, of_case)).chosen.solver.model;
-    if (!scenario::rung(rung_).meshed())
-      rung_ = std::find_if(scenario::ladder.begin(), scenario::ladder.end(),
-                           std::mem_fn(&scenario::Rung::meshed))
-                  ->of;
+    traits_ = run::choose(opened(asked, of_case)).chosen.solver.model;
+    if (!scenario::traits(traits_).meshed())
+      traits_ = std::find_if(scenario::model_table.begin(), scenario::model_table.end(),
+                             std::mem_fn(&scenario::ModelTraits::meshed))
+                    ->of;
     integrator_ = word_of(base_integrator(one_));
   }
 
@@ -130,18 +130,18 @@ class Designer {
     const Settings open = left_open(base_);
     add("base", "auto", open);
     if (!open.empty()) add("base", "as it stands", {});
-    for (const scenario::Rung& rung : scenario::ladder)
-      if (rung.meshed() && !rung.solid)
-        meshes(rung.of);
-      else if (!rung.solid)
-        formulas(rung.of);
-    for (const scenario::Rung& rung : scenario::ladder)
-      if (rung.meshed() && !rung.solid && !base_.uniform()) couplings(rung.of);
+    for (const scenario::ModelTraits& traits : scenario::model_table)
+      if (traits.meshed() && !traits.solid)
+        meshes(traits.of);
+      else if (!traits.solid)
+        formulas(traits.of);
+    for (const scenario::ModelTraits& traits : scenario::model_table)
+      if (traits.meshed() && !traits.solid && !base_.uniform()) couplings(traits.of);
     if (!compresses(base_)) integrators();
     if (!base_.uniform())
       for (const int rings : ring_counts)
-        add("rings", word_of(rung_) + ", " + std::to_string(rings) + " rings",
-            joined_to(rung(rung_), {"solver.rings=" + std::to_string(rings)}));
+        add("rings", word_of(traits_) + ", " + std::to_string(rings) + " rings",
+            joined_to(traits(traits_), {"solver.rings=" + std::to_string(rings)}));
     return variants_;
   }
 
@@ -161,7 +161,7 @@ class Designer {
   }
   [[nodiscard]] Settings given(Model model) const { return given(model, base_.contact.coupling); }
 
-  [[nodiscard]] Settings rung(Model model) const {
+  [[nodiscard]] Settings traits(Model model) const {
     return joined_to(given(model), {"solver.integrator=" + integrator_});
   }
 
@@ -184,11 +184,11 @@ class Designer {
   void formulas(Model model) { add("model x mesh", word_of(model), given(model)); }
 
   void meshes(Model model) {
-    add("model x mesh", word_of(model), rung(model));
+    add("model x mesh", word_of(model), traits(model));
     for (const double factor : mesh_factors)
       if (const std::string mesh = mesh_setting(base_, factor); !mesh.empty())
         add("model x mesh", word_of(model) + ", nodes x " + number_text(factor),
-            joined_to(rung(model), {mesh}));
+            joined_to(traits(model), {mesh}));
   }
 
   void couplings(Model model) {
@@ -212,7 +212,7 @@ class Designer {
     if (base_.uniform() || contact::mesh_is_tissue(base_.contact.coupling)) return true;
     try {
       const auto family = with_settings(
-          asked_, case_, {model_setting(rung_), "solver.integrator=" + word_of(moving)});
+          asked_, case_, {model_setting(traits_), "solver.integrator=" + word_of(moving)});
       return scene::inertia_reaches_force(run::choose(family.cases.front(), shapes_).chosen);
     } catch (const InputError&) {
       return true;  // the variants say why there is no mesh
@@ -221,11 +221,11 @@ class Designer {
 
   void integrators() {
     if (!steps_matter()) return;
-    const std::string model = word_of(rung_);
+    const std::string model = word_of(traits_);
     for (const Word& word : words::integrators) {
       const std::string method = word.word;
       const std::string name = model + ", " + method;
-      const Settings settings = joined_to(given(rung_), {"solver.integrator=" + method});
+      const Settings settings = joined_to(given(traits_), {"solver.integrator=" + method});
       add("integrator x time step", name, settings);
       const std::optional<scene::TimePlan> plan = plan_of(settings);
       if (plan && cut_by_limit(settings, *plan))
@@ -268,7 +268,8 @@ class Designer {
   const scenario::Case& one_;
   const Scenario& base_;  // of one_
   scene::SpecimenShapes& shapes_;
-  Model rung_ = scenario::strongest.of;  // the model of the groups integrator x time step and rings
+  Model traits_ =
+      scenario::strongest.of;  // the model of the groups integrator x time step and rings
   std::string integrator_;
   std::vector<Variant> variants_;
   std::set<std::string> seen_;
@@ -353,7 +354,7 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
   refuse_forces(
       family,
       "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
-      "forces at equal travels; give a displacement");
+      "forces at equal displacements; give a displacement");
   return parsed(path, text, settings);
 }
 
@@ -371,7 +372,7 @@ scenario::Family with_settings(const Asked& asked, std::size_t of_case, const Se
 }
 
 std::string model_setting(Model model) { return "solver.model=" + word_of(model); }
-std::string word_of(Model model) { return scenario::rung(model).word; }
+std::string word_of(Model model) { return scenario::traits(model).word; }
 std::string word_of(Integrator integrator) { return words::word(words::integrators, integrator); }
 std::string word_of(contact::Coupling coupling) { return words::word(words::couplings, coupling); }
 

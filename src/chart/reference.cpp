@@ -71,7 +71,7 @@ void refuse_slides_at_a_force(const scenario::Family& family, const Scenario& sc
     if (const auto* slide = std::get_if<scenario::Slide>(&scenario.steps[i]);
         slide != nullptr && slide->keep == scenario::Slide::Keep::force)
       refuse_at(family, "step." + std::to_string(i + 1) + ".keep",
-                "the reference slides at a depth; write `keep = \"travel\"`");
+                "the reference slides at a depth; write `keep = \"displacement\"`");
 }
 
 // Whether spheres share the force of one, which the reference presses in their place.
@@ -103,7 +103,7 @@ std::optional<History> added_by_inertia(const Asked& asked, std::size_t of_case,
       added[i].value -= still[i].value;
     return added;
   };
-  set_doing("effect of inertia");
+  set_doing({"effect of inertia"});
   try {
     const History own = on(1.0);
     History finer = on(4.0);
@@ -273,32 +273,32 @@ class Refinement {
   Part part_ = Part::whole;
 };
 
-void remark_on_error(Reference& reference) {
+void warn_of_error(Reference& reference) {
   if (reference.rows.empty()) return;
   const auto worst = std::max_element(
       reference.rows.begin(), reference.rows.end(),
       [](const ReferenceRow& a, const ReferenceRow& b) { return a.force < b.force; });
   if (!(worst->force > 0.0)) return;
-  reference.remarks.push_back("further refinement may change the greatest force, " +
-                              rounded_text(worst->force) + " N, by " +
-                              percent_text(worst->error / worst->force));
+  reference.warnings.push_back("further refinement may change the greatest force, " +
+                               rounded_text(worst->force) + " N, by " +
+                               percent_text(worst->error / worst->force));
 }
 
-void remark(const Refinement& refinement, Reference& reference) {
+void warning(const Refinement& refinement, Reference& reference) {
   std::string how = refinement.resolved() ? "coupled springs, contact resolved node by node"
                                           : "coupled springs with `consistent` contact";
   if (refinement.part() != Part::whole)
     how += refinement.part() == Part::quarter ? ", on a quarter of the body, by symmetry"
                                               : ", on half of the body, by symmetry";
   how += ", backward differences with steps proportional to the cells";
-  reference.remarks.push_back(how);
-  remark_on_error(reference);
+  reference.warnings.push_back(how);
+  warn_of_error(reference);
   if (!refinement.resolved()) return;
   const double depth = refinement.estimates().travel / refinement.scenario().finger.radius;
   double turned = 0.0;
   for (const ReferenceRow& row : reference.rows)
     turned = std::max(turned, std::abs(row.by_sphere - 1.0));
-  reference.remarks.push_back(
+  reference.warnings.push_back(
       "linear elasticity does not determine the direction of the pressure in a deep contact: it is "
       "taken along the normals of the undeformed surface, and along those of the sphere the force "
       "differs by up to " +
@@ -316,14 +316,14 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
   std::vector<double> spacings;
   const auto run_level = [&](int level, Direction direction) {
     const scene::Scene scene = refinement.build(level, direction);
-    set_doing("level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
-              std::to_string(scene.specimen->network.nodes()) + " nodes");
+    set_doing({"level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
+              std::to_string(scene.specimen->network.nodes()) + " nodes"});
     record::CaseRecord record = run::run_case(scene);
     if (record.outcome != record::Outcome::completed)
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;
     return record;
   };
-  const Direction direction = one.scenario.contact.direction.value_or(Direction::skin);
+  const Direction direction = one.scenario.contact.direction.value_or(Direction::surface);
   const double factor = copies(refinement.part());
   for (int level = 0; level < levels && !reference.diverged; ++level) {
     const record::CaseRecord record = run_level(level, direction);
@@ -347,16 +347,16 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
   }
   if (refinement.resolved()) {
     const record::CaseRecord turned =
-        run_level(0, direction == Direction::skin ? Direction::sphere : Direction::skin);
+        run_level(0, direction == Direction::surface ? Direction::sphere : Direction::surface);
     for (std::size_t i = 0; i < std::min(turned.contact.size(), reference.rows.size()); ++i) {
       ReferenceRow& row = reference.rows[i];
       const double other = factor * turned.contact[i].contact_force;
       if (row.forces.front() <= 0.0 || other <= 0.0) continue;
       row.by_sphere =
-          direction == Direction::skin ? other / row.forces.front() : row.forces.front() / other;
+          direction == Direction::surface ? other / row.forces.front() : row.forces.front() / other;
     }
   }
-  remark(refinement, reference);
+  warning(refinement, reference);
   return reference;
 }
 
@@ -402,7 +402,7 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   scenario.contact.depth.reset();
   if (!flows) scenario.contact.viscosity = scenario::Contact::Viscosity::none;
   scenario.output.keep_rows_only();
-  set_doing("the solid on three meshes");
+  set_doing({"the solid on three meshes"});
   const scene::Scene scene = run::build_scene(one, family);
   const record::CaseRecord record = run::run_case(scene);
   Reference reference;
@@ -425,11 +425,11 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
                            inertia, reference.rows);
   else
     reference.how += ", without inertia, whose estimated effect is " + percent_text(inertia);
-  reference.remarks.push_back("`solid` on three meshes, extrapolated; " + reference.how);
+  reference.warnings.push_back("`solid` on three meshes, extrapolated; " + reference.how);
   if (one_for_all)
-    reference.remarks.emplace_back(
+    reference.warnings.emplace_back(
         "spheres by `calibration = \"force\"` stand for one, which is pressed");
-  remark_on_error(reference);
+  warn_of_error(reference);
   return reference;
 }
 

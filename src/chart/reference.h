@@ -26,7 +26,7 @@ struct ReferenceRow {
 
 struct Reference {
   std::vector<ReferenceRow> rows;
-  std::vector<std::string> remarks;     // sentences on the method and the remaining error
+  std::vector<std::string> warnings;    // sentences on the method and the remaining error
   std::string how;                      // at rest: the first of them, without its beginning
   bool moves = false;                   // with the tissue's inertia throughout
   std::optional<std::string> diverged;  // the reason why it could not be completed

@@ -393,11 +393,11 @@ namespace {
 // Each model has the same colour in every chart; a variant without a scene is grey.
 std::string colour_of(const std::string& model) {
   constexpr std::array<std::size_t, 6> order{2, 4, 0, 1, 3, 5};
-  static_assert(scenario::ladder.size() <= order.size(), "every rung has a colour");
-  constexpr std::size_t no_rung = 6;
-  for (std::size_t i = 0; i < scenario::ladder.size(); ++i)
-    if (model == scenario::ladder[i].word) return plot::line_colours[order[i]];
-  return plot::line_colours[no_rung];
+  static_assert(scenario::model_table.size() <= order.size(), "every model has a colour");
+  constexpr std::size_t no_model = 6;
+  for (std::size_t i = 0; i < scenario::model_table.size(); ++i)
+    if (model == scenario::model_table[i].word) return plot::line_colours[order[i]];
+  return plot::line_colours[no_model];
 }
 
 // Each integrator has its marker in every chart.

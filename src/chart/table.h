@@ -14,7 +14,7 @@
 
 namespace palpate::chart {
 
-// One choice. It is left out unless both numbers are positive and finite.
+// One choice. It is excluded unless both numbers are positive and finite.
 struct Tradeoff {
   double cost = 0.0;
   double error = 0.0;

@@ -92,9 +92,9 @@ class Finder {
     const scene::Estimates& found = choice_.expected;
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
       return half_space(found);
-    const double left_out = std::abs(found.sides) + found.size_error + found.inertia;
+    const double neglected = std::abs(found.sides) + found.size_error + found.inertia;
     if (!scene::beyond(Model::layer, scenario_, choice_.touch) && found.measured &&
-        left_out <= refined_error &&
+        neglected <= refined_error &&
         (found.depth_ratio ? std::abs(found.deep) : found.deep_error) <= refined_error)
       return layer(found);
     const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
@@ -273,7 +273,7 @@ class Finder {
       // Where the shape needs so many nodes that `modal` does not take the finest level.
       if (4.0 * coarsest > most_modal_nodes && integrator == std::string("modal"))
         integrator = "tr_bdf2";
-      set_doing("level " + std::to_string(levels.size() + 1) + " of 3");
+      set_doing({"level " + std::to_string(levels.size() + 1) + " of 3"});
       levels.push_back(without_starts(scenario_, run_coupled(times * coarsest, integrator)));
       spacings.push_back(spacing());
       coarsest = std::max(coarsest, nodes_ / times);

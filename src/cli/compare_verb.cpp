@@ -74,6 +74,16 @@ bool rises(const record::Table& table, int column) {
   return true;
 }
 
+std::vector<std::string> cases_of(const record::Table& table) {
+  std::vector<std::string> cases;
+  if (const int at = table.find("case"); at >= 0)
+    for (const auto& row : table.rows)
+      if (const auto* name = std::get_if<std::string>(&row[as_index(at)]);
+          name != nullptr && std::find(cases.begin(), cases.end(), *name) == cases.end())
+        cases.push_back(*name);
+  return cases;
+}
+
 // The curve of both results in one figure: what was got as a line, what is wanted dashed.
 std::optional<plot::Figure> overlay(const std::string& got, const std::string& want,
                                     const compare::FileComparison& file) {
@@ -90,17 +100,19 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
   else if (both("time_s"))
     x = "time_s";
   if (x.empty() || y.empty()) return std::nullopt;
-  std::vector<std::string> cases;
-  if (const int at = left.find("case"); at >= 0)
-    for (const auto& row : left.rows)
-      if (const auto* name = std::get_if<std::string>(&row[as_index(at)]);
-          name != nullptr && std::find(cases.begin(), cases.end(), *name) == cases.end())
-        cases.push_back(*name);
+  const std::vector<std::string> names = cases_of(left), wanted_names = cases_of(right);
+  std::vector<std::array<std::string, 2>> cases;  // of both results
+  for (const std::string& name : names)
+    if (std::find(wanted_names.begin(), wanted_names.end(), name) != wanted_names.end())
+      cases.push_back({name, name});
   constexpr std::size_t most = 3;
-  if (cases.size() > most)  // the worst one
-    cases = {first != nullptr && !first->worst->case_name.empty() ? first->worst->case_name
-                                                                  : cases.front()};
-  if (cases.empty()) cases = {""};
+  if (cases.size() > most) {  // the worst one
+    const std::string& worst = first != nullptr ? first->worst->case_name : cases.front()[0];
+    cases = {worst.empty() ? cases.front() : std::array{worst, worst}};
+  }
+  if (cases.empty())  // of other names: the first of both
+    cases = {
+        {names.empty() ? "" : names.front(), wanted_names.empty() ? "" : wanted_names.front()}};
   plot::Figure figure{.name = "overlay",
                       .title = file.file,
                       .x_label = x,
@@ -110,10 +122,11 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
     for (const bool wanted : {false, true})
       figure.series.push_back(
           {.csv_file = fs::absolute(wanted ? want : got).string(),
-           .case_name = cases[i],
+           .case_name = cases[i][wanted ? 1 : 0],
            .x_column = x,
            .y_column = y,
-           .label = (cases[i].empty() ? "" : cases[i] + ", ") + (wanted ? "wanted" : "got"),
+           .label = (cases[i][0].empty() ? "" : cases[i][wanted ? 1 : 0] + ", ") +
+                    (wanted ? "wanted" : "got"),
            .colour = 2 * i + (wanted ? 1 : 0),
            .dashed = wanted});
   return figure;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
@@ -79,7 +80,9 @@ void check_options(const Convert& command, Kind kind) {
     refuse("`--to` and `--case` are for results, and " + command.subject +
            " is none; leave them out, or give the folder of a result");
   if (kind == Kind::scenario && !command.unit.empty())
-    refuse("a scenario names the units of its files itself; leave out `--unit`");
+    refuse("a scenario names the units of its files itself; remove `--unit`");
+  if (kind != Kind::scenario && !fs::exists(command.subject))
+    throw InputError({command.subject, 0, 0}, "is not there; check the path");
   if (kind != Kind::scenario && command.unit.empty())
     refuse("`palpate convert` lacks the unit of the coordinates in " + command.subject +
            "; write `--unit mm`");
@@ -151,6 +154,7 @@ void check_outputs(const Convert& command, Kind kind) {
 
 // Also writes the surface where that is asked for.
 geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
+  set_doing({"repair of the surface", 0, 2});
   meshing::Target target{.nodes = command.nodes};
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
   auto [surface, mended] = meshing::whole_surface(
@@ -166,8 +170,9 @@ geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
   if (target.nodes == 0 && target.edge_length == 0.0)
     target.edge_length = std::sqrt(geometry::area(surface) /
                                    (0.433 * static_cast<double>(surface.triangles.size())));
-  auto [mesh, remark] = meshing::tetgen_file(std::move(surface), {}, target, meshing_time);
-  if (!remark.empty()) talk.say("note: " + remark);
+  set_doing({"tetrahedra", 1, 2});
+  auto [mesh, warning] = meshing::tetgen_file(std::move(surface), {}, target, meshing_time);
+  if (!warning.empty()) talk.say("note: " + warning);
   return mesh;
 }
 
@@ -185,7 +190,7 @@ scene::Scene scene_of(const Convert& command, const Talk& talk) {
   if (!scene.specimen && !scene.solid)
     throw InputError(place_of(family.document, "solver.model"),
                      "the scenario is computed by `" +
-                         std::string(scenario::rung(scene.scenario.solver.model).word) +
+                         std::string(scenario::traits(scene.scenario.solver.model).word) +
                          "`, which has no mesh; give `--set "
                          "solver.model=mass_spring` to see the one it would have");
   return scene;
@@ -201,13 +206,13 @@ class Report {
   void count(const std::string& name, std::size_t value) { add(name, static_cast<double>(value)); }
 
   void mesh(const geometry::TetMesh& mesh, const scenario::Resolved* scenario) {
-    const geometry::Skin skin = geometry::skin(mesh);
+    const geometry::OuterSurface outer_surface = geometry::outer_surface(mesh);
     count("nodes", mesh.nodes.size());
     count("tetrahedra", mesh.tetrahedra.size());
-    count("surface_vertices", skin.nodes.size());
-    count("surface_triangles", skin.surface.triangles.size());
+    count("surface_vertices", outer_surface.nodes.size());
+    count("surface_triangles", outer_surface.surface.triangles.size());
     add("volume_mm3", 1e9 * geometry::volume(mesh));
-    add("surface_area_mm2", 1e6 * geometry::area(skin.surface));
+    add("surface_area_mm2", 1e6 * geometry::area(outer_surface.surface));
     Vec3 low = mesh.nodes.front();
     Vec3 high = low;
     for (const Vec3& node : mesh.nodes) {
@@ -413,7 +418,7 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
       mesh = run::SolidPress(scene).corners();
       report.mesh(mesh, &scene.scenario);
     } else {
-      if (!scene.specimen->remark.empty()) talk.say("note: " + scene.specimen->remark);
+      if (!scene.specimen->warning.empty()) talk.say("note: " + scene.specimen->warning);
       mesh = scene.specimen->mesh;
       report.mesh(mesh, &scene.scenario);
       report.count("springs", as_index(scene.specimen->network.springs()));
@@ -423,12 +428,12 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
     }
   } else {
     if (kind == Kind::surface) {
-      const ProgressLine line(talk, [&](double) { return "meshing " + command.subject; });
+      const ProgressLine line(talk, [&](double) { return command.subject; });
       mesh = mesh_of_surface(command, talk);
     } else {
-      auto [found, names, remark] = meshing::read_mesh(command.subject, metres_per(command.unit));
+      auto [found, names, warning] = meshing::read_mesh(command.subject, metres_per(command.unit));
       mesh = std::move(found);
-      if (!remark.empty()) talk.say("note: " + remark);
+      if (!warning.empty()) talk.say("note: " + warning);
       for (const auto& [name, number] : names)
         talk.say("note: region " + std::to_string(number) + " is `" + name + "`");
       meshing::check(mesh, command.subject, 0.0);

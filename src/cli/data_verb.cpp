@@ -228,7 +228,7 @@ std::string contact_lines(const measured::MeasuredCurve& curve, std::string& pla
     if (fit.r2 < 0.9)
       return "no round tip gives such a curve (R^2 of its law " + rounded_text(fit.r2, 3) + ")\n";
     for (const std::string& note : fit.notes)
-      if (straight && note.find("left out") != std::string::npos) text += note + "\n";
+      if (straight && note.find("excluded") != std::string::npos) text += note + "\n";
     if (straight) return line + text;
     if (fit.parameters.size() > 1)
       text += "contact point: " + rounded_text(fit.parameters[1].estimate) +

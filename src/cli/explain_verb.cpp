@@ -98,12 +98,12 @@ std::vector<std::string> explain_time(const scene::Scene& scene) {
 
 using Json = nlohmann::ordered_json;
 
-Json model(const scene::Forecast& rung) {
-  Json object{{"model", scenario::rung(rung.model).word}};
-  if (rung.cannot.empty())
-    object.update({{"error", rung.error}, {"seconds", rung.seconds}});
+Json model(const scene::Forecast& forecast) {
+  Json object{{"model", scenario::traits(forecast.model).word}};
+  if (forecast.cannot.empty())
+    object.update({{"error", forecast.error}, {"seconds", forecast.seconds}});
   else
-    object["cannot"] = rung.cannot;
+    object["cannot"] = forecast.cannot;
   return object;
 }
 
@@ -114,19 +114,19 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
   Json object{{"event", "explanation"},
               {"scenario", scenario},
               {"case", scene.name},
-              {"model", scenario::rung(scene.scenario.solver.model).word},
+              {"model", scenario::traits(scene.scenario.solver.model).word},
               {"named_by_scenario", scene.choice.given},
               {"error", nullptr},
               {"tolerance", scene.scenario.solver.tolerance},
               {"sentences",
                {{"model", expected.answer.model},
                 {"error", expected.answer.error},
-                {"neglected", expected.answer.left_out}}},
+                {"neglected", expected.answer.neglected}}},
               {"neglected", Json::array()},
               {"criteria", Json::array()},
               {"models", Json::array()}};
   if (expected.answer.stated_error) object["error"] = *expected.answer.stated_error;
-  for (const run::LeftOut& one : expected.left_out)
+  for (const run::Neglected& one : expected.neglected)
     object["neglected"].push_back(
         {{"effect", one.what}, {"change", one.change}, {"text", one.when}, {"remedy", one.remedy}});
   for (const scene::Question& one : scene.choice.questions)
@@ -135,7 +135,8 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
                                   {"number", one.number},
                                   {"limit", one.threshold},
                                   {"result", one.answer}});
-  for (const scene::Forecast& rung : scene.choice.rungs) object["models"].push_back(model(rung));
+  for (const scene::Forecast& forecast : scene.choice.forecasts)
+    object["models"].push_back(model(forecast));
   if (scene.specimen) {
     object["mesh"] = {{"nodes", scene.specimen->network.nodes()},
                       {"tetrahedra", scene.specimen->mesh.tetrahedra.size()},
@@ -154,7 +155,7 @@ class Explanation {
   std::string text(const std::string& name, const std::string& title) {
     line((name.empty() ? "" : ticked(one_line(name)) + ": ") + expected_.answer.model);
     line(expected_.answer.error);
-    line(expected_.answer.left_out);
+    line(expected_.answer.neglected);
     line("\ncase " + one_line(scene_.name) + ": " + one_line(title));
     tissue();
     shape();
@@ -228,17 +229,18 @@ class Explanation {
     line("  shape        " + text);
     if (const auto box = body_box())
       line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
-    if (!scene_.choice.touch.remark.empty()) line("  mended       " + scene_.choice.touch.remark);
+    if (!scene_.choice.touch.warning.empty()) line("  mended       " + scene_.choice.touch.warning);
     towards();
     if (!scene_.specimen) top();
-    const geometry::SmoothSurface* const skin = scene_.specimen ? &*scene_.specimen->surface
-                                                : scene_.solid  ? scene_.solid->skin.get()
-                                                                : nullptr;
-    if (skin == nullptr) return;
+    const geometry::SmoothSurface* const outer_surface =
+        scene_.specimen ? &*scene_.specimen->surface
+        : scene_.solid  ? scene_.solid->outer_surface.get()
+                        : nullptr;
+    if (outer_surface == nullptr) return;
     const scenario::Resolved& scenario = scene_.scenario;
-    const double level = scene::base_level(scenario, skin->surface());
+    const double level = scene::base_level(scenario, outer_surface->surface());
     double low = level;
-    for (const Vec3& vertex : skin->surface().vertices)
+    for (const Vec3& vertex : outer_surface->surface().vertices)
       low = std::min(low, vertex.dot(scenario.tissue.base_up));
     const std::string& side = scenario.tissue.base_side;
     line("  base         " +
@@ -247,8 +249,8 @@ class Explanation {
               : std::string("the lowest plane")) +
          (side.empty() ? "" : " on the side towards " + side) +
          (scenario.tissue.base == tissue::Base::bonded ? " is fixed, " : " slides on the table, ") +
-         percent_text(
-             scene::base_area(scenario, skin->surface(), low * Vec3::UnitZ(), 0.0).of_surface) +
+         percent_text(scene::base_area(scenario, outer_surface->surface(), low * Vec3::UnitZ(), 0.0)
+                          .of_surface) +
          " of the surface");
   }
 
@@ -268,7 +270,7 @@ class Explanation {
     if (touch.size.allFinite()) return scene::Box{touch.low, touch.high};
     if (scene_.specimen) return scene::box_in_file(scene_.scenario, scene_.specimen->mesh.nodes);
     if (scene_.solid)
-      return scene::box_in_file(scene_.scenario, scene_.solid->skin->surface().vertices);
+      return scene::box_in_file(scene_.scenario, scene_.solid->outer_surface->surface().vertices);
     return std::nullopt;
   }
 
@@ -392,7 +394,7 @@ class Explanation {
 
   void choice() {
     const scenario::Model model = scene_.scenario.solver.model;
-    line(std::string("  model        ") + scenario::rung(model).word +
+    line(std::string("  model        ") + scenario::traits(model).word +
          (scene_.choice.given ? ", named by the scenario; criteria of `auto`:"
                               : ", chosen by these criteria:"));
     for (const scene::Question& question : scene_.choice.questions) {
@@ -404,15 +406,15 @@ class Explanation {
       line(text + question.answer);
     }
     const std::optional<double> mesh_error = expected_.mesh_error;
-    for (const scene::Forecast& rung : scene_.choice.rungs) {
-      const bool on_mesh = mesh_error && scenario::rung(rung.model).meshed();
-      std::string text =
-          std::string("  ") + (rung.model == model ? "> " : "  ") + scenario::rung(rung.model).word;
+    for (const scene::Forecast& forecast : scene_.choice.forecasts) {
+      const bool on_mesh = mesh_error && scenario::traits(forecast.model).meshed();
+      std::string text = std::string("  ") + (forecast.model == model ? "> " : "  ") +
+                         scenario::traits(forecast.model).word;
       text.resize(22, ' ');
-      line(text + (rung.cannot.empty() ? "error " + error_text(rung.known(mesh_error)) +
-                                             (on_mesh ? " on this mesh, about " : ", about ") +
-                                             rounded_text(rung.seconds, 1) + " s to set up"
-                                       : "cannot: " + rung.cannot));
+      line(text + (forecast.cannot.empty() ? "error " + error_text(forecast.known(mesh_error)) +
+                                                 (on_mesh ? " on this mesh, about " : ", about ") +
+                                                 rounded_text(forecast.seconds, 1) + " s to set up"
+                                           : "cannot: " + forecast.cannot));
     }
     if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty())
       line("  note         " + text);
@@ -422,7 +424,7 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
-    if (!specimen.remark.empty()) line("  surface      " + specimen.remark);
+    if (!specimen.warning.empty()) line("  surface      " + specimen.warning);
     if (const auto& refined = specimen.refined; refined && refined->rounds > 0)
       line("  refined      from " + std::to_string(refined->start_nodes) + " nodes in " +
            std::to_string(refined->rounds) + (refined->rounds == 1 ? " round" : " rounds") +
@@ -432,12 +434,12 @@ class Explanation {
     if (const auto& error = expected_.mesh_error)
       line("  mesh error   " + error_text(*error) +
            " of the force at the largest displacement, estimated on this mesh");
-    if (scenario::rung(scene_.scenario.solver.model).coupled()) {
-      line("  network      coupled in every tetrahedron: it has E and nu of the tissue");
+    if (scenario::traits(scene_.scenario.solver.model).coupled()) {
+      line("  springs      coupled in every tetrahedron: it has E and nu of the tissue");
       return;
     }
     const bool several = scene::several_tissues(scene_.scenario);
-    line(std::string("  network      measured on the specimen") +
+    line(std::string("  springs      measured on the specimen") +
          (several ? " with `tissue.material` in all regions" : "") + ": E " +
          rounded_text(unit::kPa.from_si(specimen.measured.young_modulus)) + " kPa (" +
          rounded_text(specimen.measured.young_modulus / scene_.scenario.tissue.young_modulus) +

@@ -520,7 +520,7 @@ fit::Fit fit_over_time(const Fit& command, const measured::MeasuredCurve& curve,
                        const fit::Loading& loading, std::size_t stride = 1) {
   std::vector<double> x, y;
   for (std::size_t i = 0; i < curve.x_written.size(); i += stride) {
-    // Rows before the step are left out, and counted.
+    // Rows before the step are excluded, and counted.
     x.push_back(curve.x_written[i] < loading.first ? std::nan("") : curve.x_written[i]);
     y.push_back(curve.y_written[i]);
   }
@@ -598,19 +598,19 @@ fit::Fit fitted_over_time(const Fit& command, const measured::MeasuredCurve& who
   if (later > 0)
     result.notes.insert(result.notes.begin(),
                         std::to_string(later) +
-                            " points are left out: the curve falls there as in a recovery, which "
+                            " points are excluded: the curve falls there as in a recovery, which "
                             "`kelvin_voigt_recovery` fits");
   if (limit.from < limit.to)
     result.notes.insert(result.notes.begin(),
                         std::to_string(limit.to - limit.from) +
-                            " points are left out: the load stays at its largest value, as at the "
+                            " points are excluded: the load stays at its largest value, as at the "
                             "limit of a sensor");
   const auto early = std::count_if(curve.x_written.begin(), curve.x_written.end(),
                                    [&](double x) { return x < origin.best.first; });
   if (early > 0)
     result.notes.insert(result.notes.begin(), std::to_string(early) +
                                                   (early == 1 ? " point is" : " points are") +
-                                                  " left out: before the step");
+                                                  " excluded: before the step");
   if (!origin.sentence.empty())
     result.notes.insert(
         result.notes.begin(),
@@ -656,7 +656,7 @@ void check_fit(const Fit& command) {
 
 FittedCurve fit_curve(const Fit& command, const std::string& path) {
   DataOptions columns = command.columns;
-  columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it leaves out
+  columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it excludes
   if (is_one_of(command.model, {"jkr", "dmt", "adhesive"})) columns.usual = "retract";
   if (is_one_of(command.model,
                 {"prony", "standard_linear_solid", "spring_pot", "fractional_zener"}))

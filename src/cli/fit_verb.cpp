@@ -93,7 +93,7 @@ record::Table row_table(const std::vector<Row>& rows,
     }
     if (row.reason.empty()) {
       for (const double value : {row.fit.r2, static_cast<double>(row.fit.n),
-                                 static_cast<double>(row.fit.left_out), row.fit.effective_size})
+                                 static_cast<double>(row.fit.excluded), row.fit.effective_size})
         cells.push_back(number(value));
       for (const std::string& text : {row.fit.law, joined(row.fit.warnings, "; ")}) {
         record::Cell& cell = cells.emplace_back();
@@ -238,12 +238,12 @@ void say_what_is_odd(const fit::Fit& result, const Talk& talk) {
   for (const std::string& note : result.notes) talk.say("note: " + note);
   for (const std::string& warning : result.warnings) talk.warn(warning);
   const bool told = std::any_of(result.notes.begin(), result.notes.end(), [](const auto& note) {
-    return note.find("left out") != std::string::npos;
+    return note.find("excluded") != std::string::npos;
   });
-  if (result.left_out > 0 && !told)
-    talk.say("note: " + std::to_string(result.left_out) +
-             (result.left_out == 1 ? " point is" : " points are") +
-             " left out: not finite, or x <= 0 where its logarithm is needed");
+  if (result.excluded > 0 && !told)
+    talk.say("note: " + std::to_string(result.excluded) +
+             (result.excluded == 1 ? " point is" : " points are") +
+             " excluded: not finite, or x <= 0 where its logarithm is needed");
   const bool creep = result.name == "prony_creep";
   if (!(creep || result.name == "prony")) return;
   // A load that is negative in compression turns the signs of all of them.

@@ -213,8 +213,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   if (command.noise == "relative") options.noise = identify::Noise::relative;
 
   // Nothing is kept until the search has ended, so that an interrupt may end the program at once.
-  std::optional<ProgressLine> ticker(std::in_place, talk,
-                                     [&](double) { return "fitting " + family.name; });
+  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) { return family.name; });
   identify::Identification found = identify::identify(pairs, unknowns, options);
   identify::carry_givens(found, measured.front(), family, givens, options.noise);
   ticker.reset();
@@ -231,8 +230,9 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   talk.say(folder.path() + ": identified.csv, residuals" + each + ".csv, profile.csv, scenario" +
            each + ".toml" + (files.size() > 1 ? " and those of the other pairs" : "") + missing);
   talk.next("open", folder.path());
-  const auto tied = [](const identify::Identified& one) { return one.tied; };
-  return std::any_of(found.unknowns.begin(), found.unknowns.end(), tied) ? exit_partial : exit_good;
+  const auto inseparable = [](const identify::Identified& one) { return one.inseparable; };
+  return std::any_of(found.unknowns.begin(), found.unknowns.end(), inseparable) ? exit_partial
+                                                                                : exit_good;
 }
 
 }  // namespace palpate::cli

@@ -129,8 +129,8 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   if (result.rows_are_written) folder.take_grown(live.rows_name());
   if (command.device.traffic) folder.take_grown("traffic.csv");
   for (const std::string& warning : result.warnings) talk.warn(warning);
-  for (const std::string& remark : result.record.remarks)
-    talk.say(result.record.name + ": " + remark + ".");
+  for (const std::string& warning : result.record.warnings)
+    talk.say(result.record.name + ": " + warning + ".");
   const std::string rows = std::to_string(result.rows) + " rows";
   const int code = code_of(result.end.why);
   if (result.verdict) result.record.answer.verdict = live::verdict_sentence(*result.verdict);

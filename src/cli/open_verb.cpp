@@ -1,6 +1,7 @@
 // `palpate open`: shows the page of a result, or a page of all results below a folder, in the
 // desktop's browser, or says where it is.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The reports below a folder, relative to it, by name. Partial folders of running or killed
-// processes have a dot in their names and are left out.
+// processes have a dot in their names and are excluded.
 std::vector<std::string> reports_below(const fs::path& folder) {
   std::vector<std::string> found;
   std::error_code error;
@@ -73,7 +74,7 @@ page::Markup picture(const fs::path& file, const std::string& report, const std:
 std::string index_of(const fs::path& folder, const std::vector<std::string>& reports,
                      const Talk& talk) {
   page::Page page("Results", "index");
-  page.answer({std::to_string(reports.size()) + (reports.size() == 1 ? " report." : " reports.")});
+  std::array<std::size_t, 3> verdicts{};  // agrees, differs, not said
   page::Markup items;
   std::set<std::string> headings;
   for (const std::string& report : reports) {
@@ -85,6 +86,12 @@ std::string index_of(const fs::path& folder, const std::vector<std::string>& rep
         shown += picture((folder / report).parent_path() / name, report, title);
     std::string heading = title.substr(0, title.find(" – palpate"));
     if (!headings.insert(heading).second) heading += ", " + report;
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      const std::string cell = "\"verdict\">" + std::string(page::verdicts[i]) + "<";
+      for (std::size_t at = summary.paper.find(cell); at != std::string::npos;
+           at = summary.paper.find(cell, at + 1))
+        ++verdicts[i];
+    }
     if (!summary.paper.empty())  // a result beside the paper's text is shown whole
       page.section(
           heading,
@@ -97,6 +104,11 @@ std::string index_of(const fs::path& folder, const std::vector<std::string>& rep
           page::element("section", shown + page::element("h3", page::link(link_of(report), title)) +
                                        page::element("p", summary.answer));
   }
+  if (const std::size_t all = verdicts[0] + verdicts[1] + verdicts[2]; all > 0)
+    page.headline(std::to_string(verdicts[0]) + " of " + std::to_string(all),
+                  "statements of the paper agree with these runs, " + std::to_string(verdicts[1]) +
+                      " differ, and " + std::to_string(verdicts[2]) + " the text does not settle");
+  page.answer({std::to_string(reports.size()) + (reports.size() == 1 ? " report." : " reports.")});
   if (!items.empty()) page.section("Reports", page::element("div", items, {{"class", "cards"}}));
   const std::string index = (folder / "index.html").string();
   write_atomically(index, page.html());
@@ -115,8 +127,7 @@ std::string page_of(const std::string& folder, const Talk& talk) {
   for (const std::string& file : entries_of(folder))
     if (fs::path(file).extension() == ".svg") return file;
   throw InputError({folder, 0, 0}, "holds neither `" + std::string(page::file_name) +
-                                       "` nor a figure; run a scenario with `--out " + folder +
-                                       "` first");
+                                       "` nor a figure; give a folder of results, as `out`");
 }
 
 bool has_display() {

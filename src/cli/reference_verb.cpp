@@ -29,7 +29,7 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
     });
     chart::Reference reference = chart::refer(asked, i);
     ticker.reset();
-    for (const std::string& remark : reference.remarks) talk.say(one.name + ": " + remark + ".");
+    for (const std::string& warning : reference.warnings) talk.say(one.name + ": " + warning + ".");
     if (reference.diverged) {
       diverged = true;
       Talk::error(one.name + ": " + *reference.diverged);

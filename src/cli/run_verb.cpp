@@ -34,11 +34,12 @@ void refuse_same_names(const std::vector<scenario::Family>& families) {
                            "`; rename one, or run them one by one with `--out`");
 }
 
-void say_remarks(const std::vector<record::CaseRecord>& records, const Talk& talk) {
-  std::vector<report::NamedSentence> remarks;
+void say_warnings(const std::vector<record::CaseRecord>& records, const Talk& talk) {
+  std::vector<report::NamedSentence> warnings;
   for (const record::CaseRecord& record : records)
-    for (const std::string& remark : record.remarks) remarks.push_back({record.name, remark + "."});
-  for (const std::string& line : report::said_once(remarks)) talk.say(line);
+    for (const std::string& warning : record.warnings)
+      warnings.push_back({record.name, warning + "."});
+  for (const std::string& line : report::said_once(warnings)) talk.say(line);
 }
 
 // A family with its scenes and its result folder, ready to run.
@@ -81,7 +82,7 @@ Talk::Details details_of(const std::string& scenario, const record::CaseRecord& 
   details.emplace_back("sentences",
                        std::map<std::string, std::string>{{"model", record.answer.model},
                                                           {"error", record.answer.error},
-                                                          {"neglected", record.answer.left_out}});
+                                                          {"neglected", record.answer.neglected}});
   return details;
 }
 
@@ -118,7 +119,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   if (StopScope::stopped() && records.empty()) return {};
 
   Ran ran{.kept = records.size()};
-  say_remarks(records, talk);
+  say_warnings(records, talk);
   for (const record::CaseRecord& record : records)
     if (record.outcome == record::Outcome::diverged) {
       ran.diverged = true;
@@ -147,7 +148,7 @@ void say_plan(const Prepared& prepared, const Talk& talk) {
   std::string text = prepared.folder->path() + ": " + std::to_string(count) +
                      (count == 1 ? " case" : " cases") + " would be computed and written here\n";
   for (const scene::Scene& scene : prepared.scenes) {
-    const std::string model = scenario::rung(scene.scenario.solver.model).word;
+    const std::string model = scenario::traits(scene.scenario.solver.model).word;
     const scene::Forecast* forecast = scene.choice.taken();
     text += "  " + scene.name + ": " + model;
     if (forecast != nullptr) text += ", error " + error_text(forecast->error);

@@ -123,7 +123,7 @@ std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& comm
   if (family.base.output.figures) options.emplace();
   if (options) options->formats = report::picture_formats(family.base.output);
   const sweep::Sensitivity found = sweep::sensitivity(columns);
-  std::vector<std::string> remarks =
+  std::vector<std::string> warnings =
       sweep::draw_sweep(columns, found, family.title, folder, options);
   if (family.base.output.report)
     sweep::write_sweep_page(
@@ -134,9 +134,9 @@ std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& comm
                    " completed, " + std::to_string(totals.diverged + totals.failed) + " failed, " +
                    std::to_string(totals.missing) + " missing.",
          .scenario = family.inputs.front().content,
-         .remarks = remarks},
+         .warnings = warnings},
         folder);
-  return remarks;
+  return warnings;
 }
 
 int sweep_status(const Sweep& command, const Talk& talk) {

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "base/doing.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "plot/gnuplot.h"
@@ -127,14 +126,18 @@ void ProgressLine::tick() {
       } catch (const SystemError&) {  // nobody reads stdout any more: the verb's own print says so
         return;
       }
-    const std::string at = doing();
-    const std::string line = text_(seconds) + (at.empty() ? "" : ", " + at) + ", " +
-                             std::to_string(static_cast<long>(seconds)) + " s";
+    const std::string line = progress_text(text_(seconds), doing(), seconds);
     if (shown)
       talk_.progress(line);
     else
       talk_.say(line);
   }
+}
+
+std::string progress_text(const std::string& text, const Doing& at, double seconds) {
+  return (at.all > 0 ? bar(at.done, at.all, seconds) + ", " : "") + text +
+         (at.text.empty() ? "" : ", " + at.text) + ", " +
+         std::to_string(static_cast<long>(seconds)) + " s";
 }
 
 double rounded(double value, int digits) {

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/doing.h"
 #include "cli/arguments.h"
 
 namespace palpate::cli {
@@ -86,6 +87,9 @@ class ProgressLine {
 // A progress bar of 20 characters, with the numbers and, if `seconds` were needed for what is done,
 // the time left: `[##########..........] 5/10, 12 s left`.
 [[nodiscard]] std::string bar(std::size_t done, std::size_t all, double seconds = 0.0);
+
+// A line of progress: a bar if steps are counted, what for, what is being done, the time.
+[[nodiscard]] std::string progress_text(const std::string& text, const Doing& at, double seconds);
 
 // Writes data to stdout. Throws SystemError if it cannot be written.
 void print(const std::string& data);

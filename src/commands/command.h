@@ -35,7 +35,7 @@ struct Command {
   [[nodiscard]] const Command* find(const std::string& command) const;
 };
 
-// Reads what a parser knows. Hidden options are left out, and so is `--help` below the top.
+// Reads what a parser knows. Hidden options are omitted, and so is `--help` below the top.
 [[nodiscard]] Command describe(const CLI::App& app);
 
 // The first line of a command's help: `palpate fit DATA... --model MODEL [OPTION]...`.

@@ -325,7 +325,7 @@ using record::Table;
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-// The rows of one case with their x. Rows without a finite x are left out.
+// The rows of one case with their x. Rows without a finite x are excluded.
 struct Course {
   std::vector<double> x;
   std::vector<std::size_t> rows;

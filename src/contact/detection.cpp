@@ -43,7 +43,7 @@ bool Detector::nearest_around(const geometry::Near& near) const {
 }
 
 void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> displacement,
-                    std::vector<geometry::SmoothSurface::Foot>& feet) {
+                    std::vector<geometry::SmoothSurface::ClosestPoint>& feet) {
   feet.clear();
   tree_.within(centre, radius, near_);
   // A centre deeper inside than the radius has no triangle within the radius.
@@ -55,26 +55,26 @@ void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> dis
     if (!nearest_around(near)) continue;
     const Vec3 carried =
         centre - displacement_at(surface_->surface(), {near.triangle, near.weights}, displacement);
-    const auto foot = surface_->foot(carried, near);
-    if (foot.height >= radius) continue;
+    const auto closest_point = surface_->closest_point(carried, near);
+    if (closest_point.height >= radius) continue;
     // For a centre inside, only the nearest foot counts; for one outside, a foot on a face that is
     // turned away belongs to the far side of the tissue.
-    if (foot.height < 0.0 && &near != &*first) continue;
+    if (closest_point.height < 0.0 && &near != &*first) continue;
     // If the surface has taken the shape of the sphere, one contact has many minima. Two minima are
     // the same contact if the search from the foot of one, with the centre of the other, ends at
     // the other's foot. Only the deepest is kept.
     const auto known = std::find_if(feet.begin(), feet.end(), [&](const auto& other) {
       const double same = 1e-6 * radius;
-      if ((other.position - foot.position).norm() <= same) return true;
+      if ((other.position - closest_point.position).norm() <= same) return true;
       if (displacement.empty()) return false;
-      const auto led =
-          surface_->foot(carried, {.triangle = other.at.triangle, .weights = other.at.weights});
-      return (led.position - foot.position).norm() <= same;
+      const auto led = surface_->closest_point(
+          carried, {.triangle = other.at.triangle, .weights = other.at.weights});
+      return (led.position - closest_point.position).norm() <= same;
     });
     if (known == feet.end())
-      feet.push_back(foot);
-    else if (foot.height < known->height)
-      *known = foot;
+      feet.push_back(closest_point);
+    else if (closest_point.height < known->height)
+      *known = closest_point;
   }
 }
 

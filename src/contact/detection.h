@@ -27,7 +27,7 @@ class Detector {
   // Finds the contacts of a sphere (m), in the order of their triangles. `displacement` is that of
   // refit(), or empty for the undeformed surface.
   void find(const Vec3& centre, double radius, std::span<const Vec3> displacement,
-            std::vector<geometry::SmoothSurface::Foot>& feet);
+            std::vector<geometry::SmoothSurface::ClosestPoint>& feet);
 
  private:
   // Whether no neighbouring triangle is nearer to the centre.

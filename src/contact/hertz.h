@@ -45,11 +45,11 @@ namespace hertz {
 
 }  // namespace hertz
 
-// The sinking (m) at the distance `r` (m) from the centre of a contact of radius `a` (m; 0 for a
-// point load) that carries `force` (N), on a half-space with E' = E / (1 - nu^2) (Pa).
+// The surface displacement (m) at the distance `r` (m) from the centre of a contact of radius `a`
+// (m; 0 for a point load) that carries `force` (N), on a half-space with E' = E / (1 - nu^2) (Pa).
 //                                       K. L. Johnson 1985, eq. (3.42); docs/theory.md [half_space]
-[[nodiscard]] inline double half_space_sinking(double r, double force, double a,
-                                               double plane_modulus) {
+[[nodiscard]] inline double half_space_surface_displacement(double r, double force, double a,
+                                                            double plane_modulus) {
   if (a <= 0.0) return force / (std::numbers::pi * plane_modulus * r);
   // u = pi p0 (2 a^2 - r^2) / (4 a E') inside, and outside
   // u = p0 [(2 a^2 - r^2) asin(a/r) + a sqrt(r^2 - a^2)] / (2 a E'), p0 = 3 F / (2 pi a^2)

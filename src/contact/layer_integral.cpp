@@ -45,7 +45,7 @@ Face face(double kz, double kd, double stiffness, double nu) {
 
 }  // namespace
 
-double stack_sinking(double u, const Layer& layer) {
+double stack_surface_displacement(double u, const Layer& layer) {
   assert(u > 0.0);
   const auto layers = static_cast<Eigen::Index>(layer.below.size()) + 1;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(4 * layers, 4 * layers);
@@ -100,8 +100,8 @@ constexpr double last_wave = 20.0;
 //   frictionless  L = (cosh 2u - 1) / (sinh 2u + 2u)
 // written with q = exp(-2u), so that nothing overflows and M keeps its digits as L goes to 1.
 //                                                              docs/theory.md [layer_waves]
-double missing_sinking(double u, const Layer& layer) {
-  if (!layer.below.empty()) return 1.0 - stack_sinking(u, layer);
+double missing_surface_displacement(double u, const Layer& layer) {
+  if (!layer.below.empty()) return 1.0 - stack_surface_displacement(u, layer);
   const double q = std::exp(-2.0 * u);
   if (layer.base == LayerBase::frictionless)
     return q * (2.0 * u - std::expm1(-2.0 * u)) / (0.5 * (1.0 - q * q) + 2.0 * u * q);
@@ -326,7 +326,8 @@ std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
   gauss_legendre(numbers, weights, last_wave / layer.top());
   std::vector<LayerWave> waves;
   for (std::size_t k = 0; k < numbers.size(); ++k)
-    waves.push_back({numbers[k], layer.share * weights[k] * missing_sinking(numbers[k], layer)});
+    waves.push_back(
+        {numbers[k], layer.share * weights[k] * missing_surface_displacement(numbers[k], layer)});
   return waves;
 }
 
@@ -389,7 +390,7 @@ constexpr int waves_for_bessel =
 
 }  // namespace
 
-LayerSinking::LayerSinking(const Layer& layer, double farthest) {
+LayerSurfaceDisplacement::LayerSurfaceDisplacement(const Layer& layer, double farthest) {
   const auto tabulate = [&](double last, int pieces, int count) {
     const auto waves = layer_waves(layer, count);
     Table table{last, pieces, {}};
@@ -413,7 +414,7 @@ LayerSinking::LayerSinking(const Layer& layer, double farthest) {
     tabulate(last_rho, 64, static_cast<int>(waves_for_bessel / top));
 }
 
-double LayerSinking::gamma(double rho) const {
+double LayerSurfaceDisplacement::gamma(double rho) const {
   const auto table = std::find_if(tables_.begin(), tables_.end(),
                                   [&](const Table& one) { return rho < one.last_rho; });
   if (table == tables_.end()) return 1.0 / rho;

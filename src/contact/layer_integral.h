@@ -35,7 +35,7 @@ struct Layer {
 // between layers, the surface has no shear, and the base is that of layer.base. Exact for any nu up
 // to 1/2, except for rounding of 1e-16 / u^3 near u = 0, where the waves become linearly dependent.
 //                                           Mindlin's solutions; docs/theory.md [layer_stack]
-[[nodiscard]] double stack_sinking(double u, const Layer& layer);
+[[nodiscard]] double stack_surface_displacement(double u, const Layer& layer);
 
 // Discretisation of the equation: numbers of Gauss-Legendre points.
 struct LayerResolution {
@@ -147,10 +147,10 @@ class ChebyshevFit {
 // where 1/r is the half-space's part. Gamma(rho) = int_0^inf M(u) J_0(u rho) du is smooth, is pi/2
 // c_1 at 0, and tends to 1/rho far away, where the layer does not sink.
 //                                                                    docs/theory.md [layer_surface]
-class LayerSinking {
+class LayerSurfaceDisplacement {
  public:
   // Tabulates Gamma from 0 to `farthest`: a fifth of a millisecond per unit; for set-up only.
-  LayerSinking(const Layer& layer, double farthest);
+  LayerSurfaceDisplacement(const Layer& layer, double farthest);
 
   // 0 <= rho <= farthest; error < 1e-7 (several layers: 3e-5).
   [[nodiscard]] double gamma(double rho) const;

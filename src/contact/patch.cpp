@@ -243,7 +243,7 @@ FieldValue PatchField::at(const Vec3& point) const {
   return value;
 }
 
-SkinSpacing::SkinSpacing(const geometry::SmoothSurface& surface)
+SurfaceSpacing::SurfaceSpacing(const geometry::SmoothSurface& surface)
     : part_(surface.surface().triangles.size(), -1) {
   for (std::size_t t = 0; t < part_.size(); ++t) {
     if (part_[t] >= 0) continue;
@@ -267,7 +267,7 @@ SkinSpacing::SkinSpacing(const geometry::SmoothSurface& surface)
   }
 }
 
-double SkinSpacing::at(const Patch& patch) const {
+double SurfaceSpacing::at(const Patch& patch) const {
   const auto of = [&](int triangle) { return spacing_[as_index(part_[as_index(triangle)])]; };
   const double here = of(patch.at.triangle);
   return patch.turned > 0.0 ? here + patch.turned * (of(patch.beyond.triangle) - here) : here;

@@ -146,9 +146,9 @@ inline constexpr double wide_spacings = 1.5;
 // The typical size of the triangles of a surface.
 // The edge length (m) of an equilateral triangle of the mean area, for each part of a surface; a
 // part ends at creases.
-class SkinSpacing {
+class SurfaceSpacing {
  public:
-  explicit SkinSpacing(const geometry::SmoothSurface& surface);
+  explicit SurfaceSpacing(const geometry::SmoothSurface& surface);
 
   // The spacing (m) of the patch's part; on a sharp edge between those of both sides.
   [[nodiscard]] double at(const Patch& patch) const;

@@ -48,12 +48,13 @@ void ViscousRing::set_time_step(double time_step) {
     mode_keep_[m] = std::exp(-time_step / creep_.modes[m].time);
 }
 
-void ViscousRing::press(double part, double sinking, std::span<double> branches) const {
+void ViscousRing::press(double part, double surface_displacement,
+                        std::span<double> branches) const {
   for (std::size_t k = 0; k < branches.size(); ++k) {
     const auto [tau, b] = relaxation_.branches[k];
     const double x = time_step_ / tau;
     branches[k] = fade_over(part, x, branch_keep_[k]) * branches[k] +
-                  b * mean_fade_over(part, x, branch_gain_[k] / b) * sinking;
+                  b * mean_fade_over(part, x, branch_gain_[k] / b) * surface_displacement;
   }
 }
 
@@ -62,7 +63,7 @@ void ViscousRing::rise(double part, std::span<double> modes) const {
     modes[m] *= fade_over(part, time_step_ / creep_.modes[m].time, mode_keep_[m]);
 }
 
-void ViscousRing::let_go(double sinking, std::span<const double> branches,
+void ViscousRing::let_go(double surface_displacement, std::span<const double> branches,
                          std::span<double> modes) const {
   // y_m = -sum_k q_k / (T_m - tau_k) / sum_k b_k tau_k / (T_m - tau_k)^2. For a ring that was only
   // pushed, no mode is negative; if interpolation in a long step makes one negative, it is set to 0
@@ -75,7 +76,7 @@ void ViscousRing::let_go(double sinking, std::span<const double> branches,
     modes[m] = n > 0 ? std::max(mode / slopes_[m], 0.0) : 1.0;
     sum += modes[m];
   }
-  const double scale = sum > 0.0 ? std::max(sinking, 0.0) / sum : 0.0;
+  const double scale = sum > 0.0 ? std::max(surface_displacement, 0.0) / sum : 0.0;
   for (double& mode : modes) mode *= scale;
 }
 

@@ -33,14 +33,16 @@ class ViscousRing {
   [[nodiscard]] std::span<const double> branch_gain() const { return branch_gain_; }
   [[nodiscard]] std::span<const double> mode_keep() const { return mode_keep_; }
 
-  // Advances branches or modes over the given part of a step, 0 to 1; `sinking` (m) is the
-  // increment of w in that part. Exact for a whole step; for a part the error is of the order dt^3.
-  void press(double part, double sinking, std::span<double> branches) const;
+  // Advances branches or modes over the given part of a step, 0 to 1; `surface displacement` (m) is
+  // the increment of w in that part. Exact for a whole step; for a part the error is of the order
+  // dt^3.
+  void press(double part, double surface_displacement, std::span<double> branches) const;
   void rise(double part, std::span<double> modes) const;
 
   // let_go() computes the modes (m) of a ring released at the displacement w (m) with the branches
   // q_k (m) when q is 0; meet() computes the branches (m) of a free ring when it meets the finger.
-  void let_go(double sinking, std::span<const double> branches, std::span<double> modes) const;
+  void let_go(double surface_displacement, std::span<const double> branches,
+              std::span<double> modes) const;
   void meet(std::span<const double> modes, std::span<double> branches) const;
 
  private:

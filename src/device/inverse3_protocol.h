@@ -46,7 +46,7 @@ struct Arm {
 struct Snapshot {
   std::vector<Arm> arms;
 };
-// Nothing if the text is not a JSON object. Arms without a usable id are left out. Allocates.
+// Nothing if the text is not a JSON object. Arms without a usable id are excluded. Allocates.
 [[nodiscard]] std::optional<Snapshot> parse_snapshot(std::string_view message);
 
 // True for ids that palpate sends back: 1 to 31 letters, digits, `-` or `_`.

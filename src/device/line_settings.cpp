@@ -26,7 +26,7 @@ void fields(FieldVisitor& visitor, LineSettings& settings) {
   visitor.text({"pattern", "what the lines look like"}, settings.pattern);
   visitor.choice({"decimal", "decimal sign in the lines"}, settings.decimal, decimal_words);
   visitor.text({"force_unit", "of forces without unit"}, settings.force_unit);
-  visitor.text({"travel_unit", "of travels without unit"}, settings.travel_unit);
+  visitor.text({"travel_unit", "of the travel without unit"}, settings.travel_unit);
   visitor.text({"time_unit", "of times without unit"}, settings.time_unit);
   visitor.number({"force_zero", "reading without load, as the lines show it"}, settings.force_zero,
                  {});

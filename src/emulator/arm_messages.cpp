@@ -105,12 +105,12 @@ void read_force(const Json& commands, Service service, Request& request) {
   // 3.5 takes the older word as well.
   if (vector == command->end() && service == Service::v3_5) vector = command->find("values");
   if (vector == command->end()) {
-    request.remark = std::string("no `") + spelling(service) + "` in set_cursor_force";
+    request.warning = std::string("no `") + spelling(service) + "` in set_cursor_force";
     return;
   }
   const auto force = vector_in(*vector);
   if (!force) {
-    request.remark = "set_cursor_force wants numbers x, y, z";
+    request.warning = "set_cursor_force wants numbers x, y, z";
     return;
   }
   if (!request.force) request.force.emplace(Vec3{});
@@ -125,7 +125,7 @@ Request parse_request(const std::string& text, Service service, const std::strin
   const Json message = Json::parse(text, nullptr, false);
   request.json = message.is_object();
   if (!request.json) {
-    request.remark = "no JSON object";
+    request.warning = "no JSON object";
     return request;
   }
   const auto session = message.find("session");
@@ -136,7 +136,7 @@ Request parse_request(const std::string& text, Service service, const std::strin
   for (const Json& device : *devices) {
     if (!device.is_object() || !device.contains("commands")) continue;
     if (device.value("device_id", Json()) != id_of(device_id, form)) {
-      request.remark = "no such device";
+      request.warning = "no such device";
       continue;
     }
     if (device["commands"].is_object()) read_force(device["commands"], service, request);

@@ -15,7 +15,7 @@ struct Request {
   bool json = false;            // whether the message is a JSON object
   std::optional<Vec3> force{};  // N, as commanded
   bool full_state = false;      // session.force_render_full_state
-  std::string remark = {};      // why a command was ignored, for the log
+  std::string warning = {};     // why a command was ignored, for the log
 };
 
 // How the service shows the device, as found in the field.

@@ -170,12 +170,12 @@ class AdhesiveFit {
     if (curve_.depth.front() < curve_.depth.back())
       for (std::vector<double>* each : {&curve_.depth, &curve_.force})
         std::reverse(each->begin(), each->end());
-    fit_.left_out = static_cast<int>(depth.size() - curve_.depth.size());
+    fit_.excluded = static_cast<int>(depth.size() - curve_.depth.size());
     if (finite > curve_.depth.size())
       fit_.notes.push_back(std::to_string(finite - curve_.depth.size()) +
                            (test_.way == ContactTest::Way::approach
-                                ? " points are left out: the way back from the deepest row"
-                                : " points are left out: the way to the deepest row; `--segment "
+                                ? " points are excluded: the way back from the deepest row"
+                                : " points are excluded: the way to the deepest row; `--segment "
                                   "approach` fits it"));
     for (const double each : curve_.force) scale_ = std::max(scale_, std::abs(each));
     if (!(scale_ > 0.0)) throw InputError({}, "the force is 0 at every point; name another `--y`");

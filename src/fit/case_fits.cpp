@@ -42,7 +42,7 @@ class CaseFits {
     options.residuals = residuals_;
     try {
       fits_.push_back({record_.name, name, regress(curve.x, curve.y, model, options)});
-    } catch (const InputError&) {  // a curve with too few points is left out
+    } catch (const InputError&) {  // a curve with too few points is excluded
     }
   }
 

@@ -65,8 +65,8 @@ class ContactFit {
     refuse_what_shows_no_contact(choice);
     fit_.n = static_cast<int>(rows_.depth.size());
     if (outside_ > 0)
-      fit_.notes.push_back(plural(outside_, "point") + " left out by the limits of depth");
-    fit_.left_out += outside_;
+      fit_.notes.push_back(plural(outside_, "point") + " excluded by the limits of depth");
+    fit_.excluded += outside_;
     fit_.range_low = unit::mm.from_si(rows_.low);
     fit_.range_high = unit::mm.from_si(rows_.high);
     finish(choice);
@@ -76,8 +76,8 @@ class ContactFit {
  private:
   void leave_out(int count, const std::string& why) {
     if (count == 0) return;
-    fit_.left_out += count;
-    fit_.notes.push_back(plural(count, "point") + " left out: " + why);
+    fit_.excluded += count;
+    fit_.notes.push_back(plural(count, "point") + " excluded: " + why);
   }
 
   void take(std::span<const double> depth, std::span<const double> force) {

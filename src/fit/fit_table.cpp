@@ -47,7 +47,7 @@ record::Table measured_fit_table(std::span<const NamedFit> fits) {
       const Fit& fit = named.fit;
       const std::string law = fit.name.empty() ? std::string(info(fit.model).formula) : fit.law;
       for (record::Cell cell :
-           {number(fit.left_out), number(fit.effective_size), number(fit.durbin_watson), text(law)})
+           {number(fit.excluded), number(fit.effective_size), number(fit.durbin_watson), text(law)})
         table.rows[row].push_back(std::move(cell));
     }
   return table;

@@ -20,7 +20,7 @@ struct NamedFit {
 // rmse, n, range_low, range_high, termination.
 [[nodiscard]] record::Table fit_table(std::span<const NamedFit> fits);
 
-// The table of `palpate fit`: the same columns, then left_out (points not used), effective_n
+// The table of `palpate fit`: the same columns, then excluded (points not used), effective_n
 // (independent points of the same worth), durbin_watson and law (the formula with its source).
 [[nodiscard]] record::Table measured_fit_table(std::span<const NamedFit> fits);
 

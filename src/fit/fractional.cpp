@@ -90,7 +90,7 @@ Fit fit_fractional(std::span<const double> x, std::span<const double> y, Fractio
     fit.range_high = std::fmax(fit.range_high, x[i]);
   }
   fit.n = static_cast<int>(times.size());
-  fit.left_out = static_cast<int>(x.size()) - fit.n;
+  fit.excluded = static_cast<int>(x.size()) - fit.n;
   const std::size_t count = fit.parameters.size();
   if (times.size() <= count)
     throw InputError({}, "the model `" + fit.name + "` needs at least " +

@@ -21,7 +21,7 @@ enum class Fractional {
 
 // Least squares as in regress(), after a step at options.x_origin. Parameters: c or J, and beta;
 // y_inf, y_0, tau and beta. The exponent is between 0 and 1: a spring and a dashpot. Points at the
-// step and before are left out. Throws InputError for fewer points than parameters + 1.
+// step and before are excluded. Throws InputError for fewer points than parameters + 1.
 //      docs/theory.md [spring_pot], [zener]; Mainardi 2010, Fractional calculus and waves, ch. 3
 [[nodiscard]] Fit fit_fractional(std::span<const double> x, std::span<const double> y,
                                  Fractional model, const Options& options = {});

@@ -33,7 +33,7 @@ struct ModelInfo {
   std::string_view name;     // on the command line and in fits.csv
   std::string_view formula;  // for people
   std::span<const Parameter> parameters;
-  bool positive_x_only = false;  // points with x <= 0 are left out
+  bool positive_x_only = false;  // points with x <= 0 are excluded
 };
 
 // All models, in the order of the enumeration.

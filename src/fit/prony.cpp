@@ -60,7 +60,7 @@ Points usable(std::span<const double> x, std::span<const double> y, const PronyS
     fit.range_high = std::fmax(fit.range_high, x[i]);
   }
   fit.n = static_cast<int>(points.x.size());
-  fit.left_out = static_cast<int>(x.size()) - fit.n;
+  fit.excluded = static_cast<int>(x.size()) - fit.n;
   if (fit.n < needed)
     throw InputError({}, "the model `" + fit.name + "` needs at least " + std::to_string(needed) +
                              " points for this number of terms, and " + std::to_string(fit.n) +

@@ -27,7 +27,7 @@ constexpr int most_terms = 60;
 // y_0 + y_flow int H dx + sum (Burgers 1935 with one term). Intervals are Student's, that of tau
 // from the error of ln tau, docs/theory.md [prony]. With more than 5 terms, the times are spaced
 // evenly in their logarithm from the distance of two points to the length of the record, and the
-// y_k >= 0 follow by non-negative least squares, without intervals; terms of 0 are left out. Values
+// y_k >= 0 follow by non-negative least squares, without intervals; terms of 0 are excluded. Values
 // refer to the largest of the history. Throws InputError for fewer than 2 * terms + 2 usable points
 // (terms + 2 if the times are given), if all x are equal, and for a history whose times do not
 // ascend.

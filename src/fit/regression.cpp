@@ -40,7 +40,7 @@ CurvePoints usable(std::span<const double> x, std::span<const double> y, const O
   if (largest > 0.0) points.y_scale = largest;
   for (double& each : points.y) each /= points.y_scale;
   fit.n = static_cast<int>(points.x.size());
-  fit.left_out = static_cast<int>(x.size()) - fit.n;
+  fit.excluded = static_cast<int>(x.size()) - fit.n;
   return points;
 }
 
@@ -51,8 +51,8 @@ void refuse_too_few(const Fit& fit) {
   std::string message = "the model `" + std::string(model.name) + "` needs at least " +
                         std::to_string(needed) + " points, and " + std::to_string(fit.n) +
                         (fit.n == 1 ? " is" : " are") + " usable";
-  if (fit.left_out > 0)
-    message += " (" + std::to_string(fit.left_out) + " left out: not finite" +
+  if (fit.excluded > 0)
+    message += " (" + std::to_string(fit.excluded) + " excluded: not finite" +
                (model.positive_x_only ? ", or x not above 0)" : ")");
   throw InputError({}, message + "; record more points, or fit a model with fewer parameters");
 }

@@ -45,7 +45,7 @@ struct Fit {
   double r2 = Estimate::unknown;          // 1 - SSE / SST about the mean; NaN if y is constant
   double rmse = Estimate::unknown;        // sqrt(SSE / n), in the unit of y
   int n = 0;                              // points used
-  int left_out = 0;  // points that are not finite, or have x <= 0 in a model with ln x or x^n
+  int excluded = 0;  // points that are not finite, or have x <= 0 in a model with ln x or x^n
   double range_low = Estimate::unknown;  // smallest x used, before x_origin is subtracted
   double range_high = Estimate::unknown;
   double x_origin = 0.0;  // the curve is a function of (x - x_origin)
@@ -54,9 +54,9 @@ struct Fit {
   double rho = 0.0;  // correlation of neighbouring residuals; 0 where taken as independent
   double effective_size = Estimate::unknown;  // independent rows of the same worth
   double durbin_watson = Estimate::unknown;   // of the residuals in the order of the points
-  bool gave_way = false;  // rows beyond the largest force are left out: the specimen gave way
+  bool gave_way = false;  // rows beyond the largest force are excluded: the specimen gave way
   std::string law = {};   // the formula that was fitted, with its source
-  std::vector<std::string> notes = {};     // sentences: what was left out and what was decided
+  std::vector<std::string> notes = {};     // sentences: what was excluded and what was decided
   std::vector<std::string> warnings = {};  // sentences: why the estimates may be wrong
 };
 

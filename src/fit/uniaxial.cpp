@@ -107,9 +107,9 @@ class UniaxialFit {
  private:
   void leave_out(std::size_t count, const std::string& why) {
     if (count == 0) return;
-    fit_.left_out += static_cast<int>(count);
+    fit_.excluded += static_cast<int>(count);
     fit_.notes.push_back(std::to_string(count) + (count == 1 ? " point is" : " points are") +
-                         " left out: " + why);
+                         " excluded: " + why);
   }
 
   void refuse_few() const {
@@ -242,7 +242,7 @@ class UniaxialFit {
   }
 
   void take_both(const std::vector<Branch>& branches) {
-    // A side is left out on its way back to zero where it has a way out.
+    // A side is excluded on its way back to zero where it has a way out.
     std::vector<char> away(strain_.size(), 0);
     std::array<bool, 2> out{};  // below and above zero
     for (const Branch& branch : branches)

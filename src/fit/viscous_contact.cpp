@@ -195,10 +195,10 @@ class ViscousFit {
     const OneWay part = one_way(depth_, test_.way);
     if (part.to < time_.size())
       fit_.notes.push_back(std::to_string(time_.size() - part.to) +
-                           " points are left out: the way back from the deepest row; `--segment "
+                           " points are excluded: the way back from the deepest row; `--segment "
                            "all` fits both ways, by Ting's contact");
     for (std::vector<double>* each : {&time_, &depth_, &force_}) each->resize(part.to);
-    fit_.left_out = static_cast<int>(time.size() - time_.size());
+    fit_.excluded = static_cast<int>(time.size() - time_.size());
     const auto [low, high] = std::minmax_element(depth_.begin(), depth_.end());
     low_ = *low;
     range_ = *high - *low;

@@ -55,7 +55,7 @@ struct Disc {
 
 // The upper leg: circular sections along y, slightly tapered, with a bone on its axis and skin all
 // around. Regions: 0 skin with the fat under it, 1 muscle, 2 bone; all extend to the flat end
-// faces. A region with thickness or radius 0 is left out.
+// faces. A region with thickness or radius 0 is excluded.
 struct LayeredLimb {
   double length = 0.350;
   double radius = 0.090;      // at y = 0

@@ -167,13 +167,13 @@ Vec3 SmoothSurface::normal(const SurfacePoint& point) const {
       .normalized();
 }
 
-SmoothSurface::Foot SmoothSurface::at(const Vec3& point, const SurfacePoint& where) const {
-  Foot foot;
-  foot.at = where;
-  foot.position = position(where);
-  foot.normal = normal(where);
-  foot.height = (point - foot.position).dot(foot.normal);
-  return foot;
+SmoothSurface::ClosestPoint SmoothSurface::at(const Vec3& point, const SurfacePoint& where) const {
+  ClosestPoint closest_point;
+  closest_point.at = where;
+  closest_point.position = position(where);
+  closest_point.normal = normal(where);
+  closest_point.height = (point - closest_point.position).dot(closest_point.normal);
+  return closest_point;
 }
 
 // The normal that decides between outside and inside at a nearest point. The triangles' normals
@@ -191,21 +191,22 @@ Vec3 SmoothSurface::pseudo_normal(const SurfacePoint& point) const {
   return sum;
 }
 
-SmoothSurface::Foot SmoothSurface::flat_foot(const Vec3& point, const Near& start) const {
-  Foot foot;
-  foot.at = {start.triangle, start.weights};
-  foot.position = flat_position(foot.at);
-  foot.normal = twice_area(surface_, start.triangle).normalized();
-  const Vec3 away = point - foot.position;
+SmoothSurface::ClosestPoint SmoothSurface::flat_closest_point(const Vec3& point,
+                                                              const Near& start) const {
+  ClosestPoint closest_point;
+  closest_point.at = {start.triangle, start.weights};
+  closest_point.position = flat_position(closest_point.at);
+  closest_point.normal = twice_area(surface_, start.triangle).normalized();
+  const Vec3 away = point - closest_point.position;
   const double distance = away.norm();
-  foot.height = away.dot(pseudo_normal(foot.at)) < 0.0 ? -distance : distance;
+  closest_point.height = away.dot(pseudo_normal(closest_point.at)) < 0.0 ? -distance : distance;
   // The perpendicular to an edge is inclined; above the triangle it is the triangle's normal.
-  if (distance > 0.0 && foot.height > 0.0) foot.normal = away / distance;
+  if (distance > 0.0 && closest_point.height > 0.0) closest_point.normal = away / distance;
   for (std::size_t edge = 0; edge < 3; ++edge)
     if (crease(start.triangle, edge) &&
         start.weights[static_cast<Eigen::Index>((edge + 2) % 3)] <= 1e-12)
-      foot.on_crease = true;
-  return foot;
+      closest_point.on_crease = true;
+  return closest_point;
 }
 
 struct SmoothSurface::Crease {
@@ -265,8 +266,9 @@ SmoothSurface::Crease SmoothSurface::nearest_on_crease(const Vec3& point, int tr
   return crease;
 }
 
-SmoothSurface::Foot SmoothSurface::crease_foot(const Vec3& point, const SurfacePoint& start,
-                                               std::size_t edge) const {
+SmoothSurface::ClosestPoint SmoothSurface::edge_closest_point(const Vec3& point,
+                                                              const SurfacePoint& start,
+                                                              std::size_t edge) const {
   Crease crease = nearest_on_crease(point, start.triangle, edge,
                                     start.weights[static_cast<Eigen::Index>((edge + 1) % 3)]);
   // At an end, the crease may continue along other edges.
@@ -289,37 +291,39 @@ SmoothSurface::Foot SmoothSurface::crease_foot(const Vec3& point, const SurfaceP
     at.weights[static_cast<Eigen::Index>(corner_of(corners, crease.ends[1]))] = s;
     return at;
   };
-  Foot foot;
-  foot.on_crease = true;
-  foot.at = place(crease.sides[0]);
-  foot.position = flat_position(foot.at);  // on the triangles, where loads can act
-  std::array<double, 2> past{};            // distance of the point beyond each side
+  ClosestPoint closest_point;
+  closest_point.on_crease = true;
+  closest_point.at = place(crease.sides[0]);
+  closest_point.position =
+      flat_position(closest_point.at);  // on the triangles, where loads can act
+  std::array<double, 2> past{};         // distance of the point beyond each side
   for (std::size_t k = 0; k < crease.count(); ++k) {
     const auto& [n0, n1] = crease.normals[k];
     const Vec3 normal = ((1.0 - s) * n0 + s * n1).normalized();
     past[k] = crease.away.dot(crease.along.cross(normal)) * (k == 0 ? 1.0 : -1.0);
     if (past[k] > 0.0 || s == 0.0 || s == 1.0) continue;
     // Between the edge and the curve, the side is continued with its normal there.
-    foot.at = place(crease.sides[k]);
-    foot.normal = normal;
-    foot.height = crease.away.dot(normal);
-    return foot;
+    closest_point.at = place(crease.sides[k]);
+    closest_point.normal = normal;
+    closest_point.height = crease.away.dot(normal);
+    return closest_point;
   }
   past = {std::max(0.0, past[0]), std::max(0.0, past[1])};
   if (crease.count() == 2 && past[0] > 0.0) {
-    foot.beyond = place(crease.sides[1]);
-    foot.turned = past[0] / (past[0] + past[1]);
+    closest_point.beyond = place(crease.sides[1]);
+    closest_point.turned = past[0] / (past[0] + past[1]);
   }
-  foot.normal = pseudo_normal(foot.at).normalized();
+  closest_point.normal = pseudo_normal(closest_point.at).normalized();
   const double distance = crease.away.norm();
-  foot.height = crease.away.dot(foot.normal) < 0.0 ? -distance : distance;
-  if (distance > 0.0) foot.normal = crease.away / foot.height;
-  return foot;
+  closest_point.height = crease.away.dot(closest_point.normal) < 0.0 ? -distance : distance;
+  if (distance > 0.0) closest_point.normal = crease.away / closest_point.height;
+  return closest_point;
 }
 
-SmoothSurface::Foot SmoothSurface::foot(const Vec3& point, const Near& start) const {
-  const Foot found = followed_foot(point, start);
-  const Foot flat = flat_foot(point, start);
+SmoothSurface::ClosestPoint SmoothSurface::closest_point(const Vec3& point,
+                                                         const Near& start) const {
+  const ClosestPoint found = followed_closest_point(point, start);
+  const ClosestPoint flat = flat_closest_point(point, start);
   // Beyond a rim, Newton's method can end below a wall: the point is behind the wall's plane, but
   // outside the body. The smooth surface is nearer to its triangles than their edges are long.
   const auto& [a, b, c] = surface_.triangles[as_index(start.triangle)];
@@ -329,7 +333,8 @@ SmoothSurface::Foot SmoothSurface::foot(const Vec3& point, const Near& start) co
   return std::abs(found.height - flat.height) <= size ? found : flat;
 }
 
-SmoothSurface::Foot SmoothSurface::followed_foot(const Vec3& point, const Near& start) const {
+SmoothSurface::ClosestPoint SmoothSurface::followed_closest_point(const Vec3& point,
+                                                                  const Near& start) const {
   constexpr int most_moves = 60;
   constexpr double nudge = 1e-6;  // of the weights, for the derivative
   SurfacePoint here{start.triangle, start.weights};
@@ -352,10 +357,10 @@ SmoothSurface::Foot SmoothSurface::followed_foot(const Vec3& point, const Near& 
     slope.col(1) = (lean(here.weights + Vec3(-nudge, 0.0, nudge)) - now) / nudge;
     const double determinant = slope.determinant();
     if (!(std::abs(determinant) > 1e-30 * side_b.squaredNorm() * side_c.squaredNorm()))
-      return flat_foot(point, start);
+      return flat_closest_point(point, start);
     const Eigen::Vector2d change = -(slope.inverse() * now);
     const Vec3 move(-change[0] - change[1], change[0], change[1]);
-    if (!move.allFinite()) return flat_foot(point, start);
+    if (!move.allFinite()) return flat_closest_point(point, start);
     const Exit exit = first_exit(here.weights, move);
     here.weights += exit.part * move;
     if (exit.edge < 0) {
@@ -366,7 +371,7 @@ SmoothSurface::Foot SmoothSurface::followed_foot(const Vec3& point, const Near& 
     const auto edge = as_index(exit.edge);
     if (crease(here.triangle, edge)) {
       // A long move may have overshot; only a move that starts at the crease ends there.
-      if (exit.part <= 1e-12 || ++stuck > 6) return crease_foot(point, here, edge);
+      if (exit.part <= 1e-12 || ++stuck > 6) return edge_closest_point(point, here, edge);
       continue;
     }
     // Continue in the next triangle, from the same point of the edge.

@@ -46,7 +46,7 @@ class SmoothSurface {
   [[nodiscard]] Vec3 normal(const SurfacePoint& point) const;         // unit, outwards
 
   // The foot of the perpendicular from a point.
-  struct Foot {
+  struct ClosestPoint {
     SurfacePoint at;
     Vec3 position = Vec3::Zero();
     Vec3 normal = Vec3::UnitZ();
@@ -59,18 +59,18 @@ class SmoothSurface {
   };
   // Searches for the foot from the nearest point of the flat triangles. If the search ends at a
   // crease, the foot is on the crease's curve. Continuous in `point` until another foot is nearer.
-  [[nodiscard]] Foot foot(const Vec3& point, const Near& start) const;
+  [[nodiscard]] ClosestPoint closest_point(const Vec3& point, const Near& start) const;
 
  private:
-  [[nodiscard]] Foot followed_foot(const Vec3& point, const Near& start) const;
-  [[nodiscard]] Foot flat_foot(const Vec3& point, const Near& start) const;
+  [[nodiscard]] ClosestPoint followed_closest_point(const Vec3& point, const Near& start) const;
+  [[nodiscard]] ClosestPoint flat_closest_point(const Vec3& point, const Near& start) const;
   // The smooth curve of the crease at edge `edge` of a triangle, and its point nearest to `point`.
   struct Crease;
   [[nodiscard]] Crease nearest_on_crease(const Vec3& point, int triangle, std::size_t edge,
                                          double start) const;
-  [[nodiscard]] Foot crease_foot(const Vec3& point, const SurfacePoint& start,
-                                 std::size_t edge) const;
-  [[nodiscard]] Foot at(const Vec3& point, const SurfacePoint& where) const;
+  [[nodiscard]] ClosestPoint edge_closest_point(const Vec3& point, const SurfacePoint& start,
+                                                std::size_t edge) const;
+  [[nodiscard]] ClosestPoint at(const Vec3& point, const SurfacePoint& where) const;
   [[nodiscard]] Vec3 pseudo_normal(const SurfacePoint& point) const;
   void find_creases(double least);
   void find_blunt_edges();

@@ -4,21 +4,21 @@
 #include <algorithm>
 
 namespace palpate::geometry {
-Skin skin(const TetMesh& mesh) {
-  Skin skin;
-  skin.surface.triangles = boundary_faces(mesh);
+OuterSurface outer_surface(const TetMesh& mesh) {
+  OuterSurface outer_surface;
+  outer_surface.surface.triangles = boundary_faces(mesh);
   std::vector<int> vertex_of(mesh.nodes.size(), -1);
-  for (const auto& triangle : skin.surface.triangles)
+  for (const auto& triangle : outer_surface.surface.triangles)
     for (const int node : triangle) vertex_of[as_index(node)] = 0;
   for (std::size_t n = 0; n < vertex_of.size(); ++n) {
     if (vertex_of[n] < 0) continue;
-    vertex_of[n] = static_cast<int>(skin.nodes.size());
-    skin.nodes.push_back(static_cast<int>(n));
-    skin.surface.vertices.push_back(mesh.nodes[n]);
+    vertex_of[n] = static_cast<int>(outer_surface.nodes.size());
+    outer_surface.nodes.push_back(static_cast<int>(n));
+    outer_surface.surface.vertices.push_back(mesh.nodes[n]);
   }
-  for (auto& triangle : skin.surface.triangles)
+  for (auto& triangle : outer_surface.surface.triangles)
     for (int& corner : triangle) corner = vertex_of[as_index(corner)];
-  return skin;
+  return outer_surface;
 }
 
 Vec3 twice_area(const Surface& surface, int triangle) {

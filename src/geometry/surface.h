@@ -17,11 +17,11 @@ struct Surface {
 };
 
 // The boundary of a mesh. Its vertices have the order of the mesh's nodes.
-struct Skin {
+struct OuterSurface {
   Surface surface;
   std::vector<int> nodes;  // node of the mesh for each vertex of the surface, ascending
 };
-[[nodiscard]] Skin skin(const TetMesh& mesh);
+[[nodiscard]] OuterSurface outer_surface(const TetMesh& mesh);
 
 // (b - a) x (c - a), m^2: the outward normal, with twice the triangle's area as length.
 [[nodiscard]] Vec3 twice_area(const Surface& surface, int triangle);

@@ -1,4 +1,5 @@
-// Errors from the singular values of the jacobian, and the combination of tied unknowns.
+// Errors from the singular values of the jacobian, and the combination of not separately
+// identifiable unknowns.
 #include "identify/box_errors.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
   const auto count = static_cast<Eigen::Index>(std::lround(std::sqrt(noise.size())));
   const Eigen::Map<const Matrix> along(noise.data(), count, count);
   BoxErrors errors;
-  errors.tied.assign(unknowns, 0);
+  errors.inseparable.assign(unknowns, 0);
   Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n, count);  // of u to the directions
   std::vector<Eigen::VectorXd> loose;
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -72,7 +73,7 @@ BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
     for (Eigen::Index i = 0; i < n; ++i) {
       const double own = t * std::sqrt(covariance(i, i));
       const double moved = loose_half_width * std::abs(direction[i]);
-      if (moved > std::max(own, 1e-3)) errors.tied[as_index(i)] = 1;
+      if (moved > std::max(own, 1e-3)) errors.inseparable[as_index(i)] = 1;
     }
   }
   errors.covariance.assign(covariance.data(), covariance.data() + covariance.size());
@@ -84,11 +85,12 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
                                        std::span<const double> u, double t) {
   Combination found;
   for (std::size_t i = 0; i < unknowns.size(); ++i)
-    if (errors.tied[i] != 0) found.of.push_back(i);
+    if (errors.inseparable[i] != 0) found.of.push_back(i);
   const std::size_t m = found.of.size();
   if (m < 2 || errors.loose.size() + 1 != m) return std::nullopt;
 
-  // The direction within the tied unknowns that is orthogonal to all loose directions.
+  // The direction within the not separately identifiable unknowns that is orthogonal to all loose
+  // directions.
   Eigen::MatrixXd loose(static_cast<Eigen::Index>(m - 1), static_cast<Eigen::Index>(m));
   for (std::size_t k = 0; k + 1 < m; ++k)
     for (std::size_t i = 0; i < m; ++i)

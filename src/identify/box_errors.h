@@ -1,4 +1,5 @@
-// Standard errors and correlations of the unknowns at a minimum, and which of them are tied.
+// Standard errors and correlations of the unknowns at a minimum, and which of them are not
+// separately identifiable.
 #pragma once
 
 #include <span>
@@ -9,17 +10,18 @@
 namespace palpate::identify {
 
 // A direction of the box is loose, that is, not determined, if its interval at 95 % (Student's t)
-// extends by more than half the box to either side. An unknown is tied if a loose direction changes
-// it by more than its error. The covariance is that of the directions which are determined.
+// extends by more than half the box to either side. An unknown is not separately identifiable if a
+// loose direction changes it by more than its error. The covariance is that of the directions which
+// are determined.
 struct BoxErrors {
   std::vector<double> covariance;          // of u, row by row
   std::vector<double> of_one;              // the same of independent residuals of variance 1
-  std::vector<char> tied;                  // one per unknown
+  std::vector<char> inseparable;           // one per unknown
   std::vector<std::vector<double>> loose;  // unit vectors
   int determined = 0;                      // number of directions that are not loose
 
   [[nodiscard]] double variance(std::size_t i, std::size_t j) const {
-    return covariance[i * tied.size() + j];
+    return covariance[i * inseparable.size() + j];
   }
 };
 // `jacobian`: derivatives of the weighted residuals with respect to u, one row per point. `noise`:
@@ -34,7 +36,8 @@ struct BoxErrors {
 [[nodiscard]] std::vector<double> determined_directions(std::span<const double> jacobian,
                                                         std::size_t unknowns);
 
-// The combination of the tied unknowns that the data determine; nothing unless there is just one.
+// The combination of the not separately identifiable unknowns that the data determine; nothing
+// unless there is just one.
 [[nodiscard]] std::optional<Combination> combination(const BoxErrors& errors,
                                                      std::span<const Unknown> unknowns,
                                                      std::span<const double> u, double t);

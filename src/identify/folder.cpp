@@ -24,7 +24,7 @@ std::string echo_of(const identify::Identification& found, const scenario::Famil
     const identify::Unknown& unknown = each.unknown;
     const std::string value = rounded_text(unknown.shown(each.estimate), 6) +
                               (unknown.unit ? " " + unknown.unit_text() : "");
-    if (each.tied)
+    if (each.inseparable)
       text +=
           "# " + unknown.name() + " is not determined by itself: one of many values that fit.\n";
     if (unknown.what == identify::Unknown::What::contact_point)
@@ -57,6 +57,12 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
     page.headline(first.unknown.name() + " " + value, interval);
     lines.erase(lines.begin());
+  } else if (const auto known = std::find_if(
+                 lines.begin(), lines.end(),
+                 [](const std::string& line) { return line.starts_with("Determined is "); });
+             known != lines.end()) {
+    page.headline("Determined is", known->substr(14));
+    lines.erase(known);
   }
   page.answer(lines);
   page.section("Figures", page::all_figures(folder, figure_words));
@@ -73,9 +79,9 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   page.section("Every column",
                page::table_of_file("Estimates and both intervals", table, "identified.csv", most),
                page::Page::Shown::folded);
-  std::vector<std::string> remarks = found.notes;
-  remarks.insert(remarks.end(), found.warnings.begin(), found.warnings.end());
-  page.section("Notes", page::paragraphs(remarks));
+  std::vector<std::string> warnings = found.notes;
+  warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+  page.section("Notes", page::paragraphs(warnings));
   page::Markup asked;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::string name = "scenario" + suffix_of(found, k) + ".toml";
@@ -85,8 +91,8 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   page.section("Scenario", asked);
   page.section("How it was made",
                page::making({.command = "palpate run scenario" + suffix_of(found, 0) + ".toml",
-                             .remark = "The command repeats the fitted curve. `palpate identify` "
-                                       "with the files below repeats the fit."},
+                             .warning = "The command repeats the fitted curve. `palpate identify` "
+                                        "with the files below repeats the fit."},
                             inputs, folder));
   page::write(std::move(page), folder);
 }

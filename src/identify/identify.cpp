@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/numerics.h"
 #include "base/stop_scope.h"
@@ -16,7 +17,7 @@
 #include "fit/step_origin.h"
 #include "identify/box_errors.h"
 #include "identify/box_profile.h"
-#include "identify/fixed_rung.h"
+#include "identify/fixed_model.h"
 #include "identify/lengthen.h"
 #include "identify/prepare_curve.h"
 #include "identify/search_starts.h"
@@ -77,12 +78,15 @@ class Search {
   }
 
   Identification all() {
+    const std::size_t steps = unknowns_.size() + 2;
+    set_doing({"search of the best fit", 0, steps});
     make_problem();
     refuse_what_changes_nothing();
     find_best();
     judge();
     if (options_.profiles) {
       profiles();
+      set_doing({"starts of the contact", steps - 1, steps});
       sensitivity();
       widen_by_start();
     }
@@ -105,9 +109,9 @@ class Search {
     Identification& found = part.found;
     found.kind = prepared.curve->kind();
     found.given = prepared.given;
-    found.rung = prepared.curve->fixed().solver.model;
+    found.taken = prepared.curve->fixed().solver.model;
     found.worst_error = prepared.worst_error;
-    found.left_out = prepared.left_out;
+    found.excluded = prepared.excluded;
     found.notes = std::move(prepared.notes);
     found.x = std::move(prepared.x);
     found.measured = std::move(prepared.measured);
@@ -121,7 +125,7 @@ class Search {
     found_.x.insert(found_.x.end(), found.x.begin(), found.x.end());
     found_.measured.insert(found_.measured.end(), found.measured.begin(), found.measured.end());
     part.to = found_.x.size();
-    found_.left_out += found.left_out;
+    found_.excluded += found.excluded;
     weights_.insert(weights_.end(), prepared.weights.begin(), prepared.weights.end());
   }
 
@@ -142,7 +146,7 @@ class Search {
     const Identification& first = parts_.front().found;
     found_.kind = first.kind;
     found_.given = first.given;
-    found_.rung = first.rung;
+    found_.taken = first.taken;
     found_.worst_error = first.worst_error;
     found_.closed_form = first.closed_form;
     if (joint()) weigh_pairs();
@@ -198,7 +202,7 @@ class Search {
     return "the curve cannot be evaluated in the ranges";
   }
 
-  [[nodiscard]] std::string model_word() const { return scenario::rung(found_.rung).word; }
+  [[nodiscard]] std::string model_word() const { return scenario::traits(found_.taken).word; }
 
   void find_best() {
     const SearchResult result = search_from_several(problem_, options_.searches);
@@ -225,8 +229,8 @@ class Search {
       one.u = best_.u[i];
       one.estimate = unknowns_[i].value(best_.u[i]);
       const bool on_edge = best_.u[i] < edge || best_.u[i] > 1.0 - edge;
-      one.tied = errors_.tied[i] != 0 && !(n == 1 && on_edge);
-      one.at_bound = !one.tied && on_edge;
+      one.inseparable = errors_.inseparable[i] != 0 && !(n == 1 && on_edge);
+      one.at_bound = !one.inseparable && on_edge;
       moving[i] = one.at_bound ? 0 : 1;
       found_.unknowns.push_back(one);
     }
@@ -242,7 +246,7 @@ class Search {
   }
 
   // Two properties of the scenario that correlate by more than 0.95, or any two keys that do
-  // where the points are worth fewer than ten independent ones, have no numbers of their own: what
+  // where the effective sample size is below ten, have no numbers of their own: what
   // tells them apart is as small as the model's own error. The weakest direction counts as not
   // determined.                                                       docs/theory.md [correlation]
   void tie_what_correlates() {
@@ -259,15 +263,14 @@ class Search {
         if (std::abs(with) <= high_correlation || !(few || elastic)) continue;
         found_.notes.push_back("`" + unknowns_[j].name() + "` and `" + unknowns_[i].name() +
                                "` correlate by " + rounded_text(with, 4) +
-                               (few ? ", and the points are worth " +
-                                          rounded_text(std::max(1.0, found_.effective_size), 3) +
-                                          " independent ones"
+                               (few ? ", and the effective sample size is " +
+                                          rounded_text(std::max(1.0, found_.effective_size), 3)
                                     : std::string()) +
                                ": they have no numbers of their own");
         errors_ = box_errors(best_.jacobian, n, along_, t_, 1);
         for (std::size_t k = 0; k < n; ++k) {
           Identified& one = found_.unknowns[k];
-          one.tied = errors_.tied[k] != 0;
+          one.inseparable = errors_.inseparable[k] != 0;
           one.std_error = one.ci95_low = one.ci95_high = std::nullopt;
           set_interval(k);
         }
@@ -370,7 +373,7 @@ class Search {
       if (moving[i] != 0) places.push_back(i);
     BoxErrors all;
     all.covariance = all.of_one = std::vector<double>(n * n, 0.0);
-    all.tied.assign(n, 0);
+    all.inseparable.assign(n, 0);
     if (places.empty()) return all;
     std::vector<double> slopes;
     for (std::size_t row = 0; row < found_.x.size(); ++row)
@@ -378,7 +381,7 @@ class Search {
     const BoxErrors some =
         box_errors(slopes, places.size(), errors_along(slopes, places.size()).covariance, t_);
     for (std::size_t a = 0; a < places.size(); ++a) {
-      all.tied[places[a]] = some.tied[a];
+      all.inseparable[places[a]] = some.inseparable[a];
       for (std::size_t b = 0; b < places.size(); ++b) {
         all.covariance[places[a] * n + places[b]] = some.covariance[a * places.size() + b];
         all.of_one[places[a] * n + places[b]] = some.of_one[a * places.size() + b];
@@ -394,8 +397,8 @@ class Search {
 
   void set_interval(std::size_t i) {
     Identified& one = found_.unknowns[i];
-    one.tied = one.tied || errors_.tied[i] != 0;
-    if (one.tied || one.at_bound) return;
+    one.inseparable = one.inseparable || errors_.inseparable[i] != 0;
+    if (one.inseparable || one.at_bound) return;
     const double error = std::sqrt(errors_.variance(i, i));
     one.std_error = error * unknowns_[i].slope(one.u);
     // The interval is symmetric in u: on a logarithmic scale it is a factor up and down.
@@ -409,7 +412,7 @@ class Search {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) {
         const double product = errors_.variance(i, i) * errors_.variance(j, j);
-        if (!found_.unknowns[i].tied && !found_.unknowns[j].tied && product > 0.0)
+        if (!found_.unknowns[i].inseparable && !found_.unknowns[j].inseparable && product > 0.0)
           found_.correlation[i * n + j] = errors_.variance(i, j) / std::sqrt(product);
       }
   }
@@ -420,14 +423,14 @@ class Search {
       refuse(
           "the best fit lies at the edge of the range of " +
           std::string(all.size() == 1 ? ticked(all.front().unknown.name()) : "every `--unknown`") +
-          ", so that the answer is outside; widen the range, or mend the scenario");
-    const bool some = std::any_of(all.begin(), all.end(),
-                                  [](const auto& one) { return !one.tied && !one.at_bound; });
+          ", so that the value lies outside; widen the range, or mend the scenario");
+    const bool some = std::any_of(
+        all.begin(), all.end(), [](const auto& one) { return !one.inseparable && !one.at_bound; });
     if (!some && found_.combinations.empty())
       refuse("these data cannot tell " +
              std::string(all.size() == 1 ? ticked(all.front().unknown.name())
                                          : "any of the unknowns") +
-             " to better than half of the range; record a longer or less noisy curve, or leave out "
+             " to better than half of the range; record a longer or less noisy curve, or exclude "
              "an `--unknown`");
   }
 
@@ -435,25 +438,27 @@ class Search {
     const std::size_t n = unknowns_.size();
     for (std::size_t i = 0; i < n; ++i) {
       Identified& one = found_.unknowns[i];
+      set_doing({"interval of " + one.unknown.name(), i + 1, n + 2});
       // The standard deviation of independent residuals that would give this unknown its error.
       const double sigma =
-          one.tied || one.at_bound
+          one.inseparable || one.at_bound
               ? noise_ * std::sqrt(factor_)
               : std::max(std::sqrt(errors_.variance(i, i) / errors_.of_one[i * n + i]), 1e-12);
-      const Profile got = one.tied ? profile_over_box(problem_, best_, i)
-                                   : profile(problem_, best_, i, errors_.covariance, sigma, t_);
+      const Profile got = one.inseparable
+                              ? profile_over_box(problem_, best_, i)
+                              : profile(problem_, best_, i, errors_.covariance, sigma, t_);
       StopScope::end_if_stopped();
       found_.evaluations += got.evaluations;
       for (const Profile::Point& point : got.points)
         found_.profile.push_back({i, unknowns_[i].value(point.u), point.squares,
                                   (point.squares - best_.squares) / (sigma * sigma)});
-      if (one.tied) valley_.insert(valley_.end(), got.points.begin(), got.points.end());
-      if (one.tied) continue;
+      if (one.inseparable) valley_.insert(valley_.end(), got.points.begin(), got.points.end());
+      if (one.inseparable) continue;
       if (got.low) one.profile_low = unknowns_[i].value(*got.low);
       if (got.high) one.profile_high = unknowns_[i].value(*got.high);
       one.by_profile = trusts_profile(i, got);
       if (!got.low && !got.high) {
-        one.tied = true;  // every value in its range fits
+        one.inseparable = true;  // every value in its range fits
         one.std_error = one.ci95_low = one.ci95_high = std::nullopt;
       }
     }
@@ -503,7 +508,7 @@ class Search {
       if (!moved.found) continue;
       for (std::size_t i = 0; i < n; ++i) {
         Identified& one = found_.unknowns[i];
-        if (one.tied || i == contact) continue;
+        if (one.inseparable || i == contact) continue;
         (sign < 0.0 ? one.moved_down : one.moved_up) =
             unknowns_[i].value(moved.u[i]) - one.estimate;
       }
@@ -534,7 +539,7 @@ class Search {
 
   // Moves the ends of an interval by steps in u.
   static void move_ends(Identified& one, double by_low, double by_high) {
-    if (one.tied || one.at_bound) return;
+    if (one.inseparable || one.at_bound) return;
     const auto move = [&](std::optional<double>& end, double by) {
       if (end) end = one.unknown.value(one.unknown.inverse(*end) + by);
     };
@@ -572,7 +577,7 @@ class Search {
       for (const Part& part : parts_) found_.pairs.push_back(part.found);
     found_.warnings =
         warnings_of(found_, {weighted, noise_, model_word()},
-                    scenario::resolve(first.curve->at(estimates_of(first)), found_.rung));
+                    scenario::resolve(first.curve->at(estimates_of(first)), found_.taken));
   }
 
   void note(const Part& part, const std::string& text) {
@@ -654,9 +659,9 @@ class Search {
     }
   }
 
-  // The exponents of a product are those near the best fit. Where tied unknowns may be elsewhere in
-  // their ranges, because the curve there differs by no more than noise and the model's error, its
-  // value there is part of the interval.
+  // The exponents of a product are those near the best fit. Where not separately identifiable
+  // unknowns may be elsewhere in their ranges, because the curve there differs by no more than
+  // noise and the model's error, its value there is part of the interval.
   void widen_along_the_valley() {
     double allowed = t_ * t_ * noise_ * noise_ * factor_;
     for (const Part& part : parts_)
@@ -686,7 +691,8 @@ class Search {
   const std::vector<Pair>& pairs_;
   const std::vector<Unknown>& unknowns_;
   const IdentifyOptions& options_;
-  std::vector<Profile::Point> valley_;  // of the tied unknowns, over their ranges
+  std::vector<Profile::Point>
+      valley_;  // of the not separately identifiable unknowns, over their ranges
   std::vector<Part> parts_;
   std::vector<double> weights_;
   BoxProblem problem_;

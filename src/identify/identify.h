@@ -1,4 +1,5 @@
-// Tissue properties from a measured curve: estimates, intervals, and unknowns that are tied.
+// Tissue properties from a measured curve: estimates, intervals, and unknowns that are not
+// separately identifiable.
 #pragma once
 
 #include <optional>
@@ -25,10 +26,11 @@ struct IdentifyOptions {
 // The result for one unknown, SI. An empty optional means that the value was not determined.
 struct Identified {
   Unknown unknown;
-  double u = 0.0;         // at the best fit
-  bool tied = false;      // the data do not determine this unknown by itself
-  bool at_bound = false;  // the best fit is on the edge of its range
-  double estimate = 0.0;  // the best fit; needed for tied unknowns too, to repeat the curve
+  double u = 0.0;            // at the best fit
+  bool inseparable = false;  // the data do not determine this unknown by itself
+  bool at_bound = false;     // the best fit is on the edge of its range
+  double estimate = 0.0;  // the best fit; needed for not separately identifiable unknowns too, to
+                          // repeat the curve
   std::optional<double> std_error;
   std::optional<double> ci95_low, ci95_high;        // Student's t, docs/theory.md [interval]
   std::optional<double> profile_low, profile_high;  // nothing: the interval is open on this side
@@ -36,8 +38,8 @@ struct Identified {
   std::optional<double> moved_down, moved_up;  // change if x = 0 moves down, up by contact_shift
 };
 
-// A combination of tied unknowns that the data determine: E / (1 - nu^2), a product of powers or,
-// if a lower bound is not positive, a weighted sum.
+// A combination of not separately identifiable unknowns that the data determine: E / (1 - nu^2), a
+// product of powers or, if a lower bound is not positive, a weighted sum.
 struct Combination {
   std::string text;             // formula in the keys' names
   std::vector<std::size_t> of;  // indices of the unknowns
@@ -71,14 +73,15 @@ struct Identification {
   std::vector<Identification> pairs;
   CurveKind kind = CurveKind::force_travel;
   scenario::Scenario scenario;  // whole loading history, every `auto` resolved, with the estimates
-  scenario::Model rung = scenario::Model::hertz;
+  scenario::Model taken = scenario::Model::hertz;
   bool given = false;                     // the scenario names the model
   std::optional<double> predicted_error;  // estimated relative error of the model at the estimates
   double worst_error = 0.0;               // the largest estimate over the ranges
   bool closed_form = false;
   std::vector<Identified> unknowns;
   std::vector<Combination> combinations;
-  std::vector<double> correlation;  // row by row; NaN for unknowns that are tied or at a bound
+  std::vector<double> correlation;         // row by row; NaN for unknowns that are not separately
+                                           // identifiable or at a bound
   std::vector<double> x, measured, model;  // SI, of the points used
   std::vector<ProfilePoint> profile;
   double threshold = 0.0;  // of their `delta`, at the ends of the 95 % intervals
@@ -91,7 +94,7 @@ struct Identification {
   double durbin_watson = 2.0;
   double runs_z = 0.0;
   double contact_shift = 0.0;         // SI of x; moves the contact point for moved_down, moved_up
-  int left_out = 0;                   // measured points that were not used
+  int excluded = 0;                   // measured points that were not used
   int evaluations = 0;                // of the model
   std::vector<GivenPart> givens;      // in the order of `--given`
   std::vector<std::string> notes;     // sentences

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "fit/loading_part.h"
 #include "identify/averaged.h"
-#include "identify/fixed_rung.h"
+#include "identify/fixed_model.h"
 #include "identify/lengthen.h"
 #include "identify/search_starts.h"
 
@@ -25,7 +25,7 @@ class Preparation {
     const scenario::Case& asked = family_.cases.front();
     kind_ = curve_of(measured_, asked.scenario, unknowns_);
     check_pseudo_keys();
-    choose_rung(asked);
+    choose_model(asked);
     choose_points();
     average();
     found_.curve->set_points(found_.x);
@@ -57,7 +57,7 @@ class Preparation {
              std::string(words_of(kind_).sentence) + "; leave it out");
   }
 
-  void choose_rung(scenario::Case asked) {
+  void choose_model(scenario::Case asked) {
     const Unknown* contact = unknown_of(Unknown::What::contact_point);
     double farthest = 0.0;
     for (const double x : measured_.x) farthest = std::max(farthest, x);
@@ -71,10 +71,10 @@ class Preparation {
       found_.notes.push_back(
           "the loading history is shorter than the measurement and is lengthened to " +
           x_text(end));
-    const FixedRung rung = fix_rung(asked, family_.document, unknowns_);
-    found_.given = rung.given;
-    found_.worst_error = rung.worst_error;
-    found_.curve = std::make_unique<ScenarioCurve>(kind_, rung, family_, unknowns_);
+    const FixedModel fixed = fix_model(asked, family_.document, unknowns_);
+    found_.given = fixed.given;
+    found_.worst_error = fixed.worst_error;
+    found_.curve = std::make_unique<ScenarioCurve>(kind_, fixed, family_, unknowns_);
     if (goes_on)
       found_.curve->set_farthest(*std::max_element(measured_.x.begin(), measured_.x.end()));
   }
@@ -104,11 +104,11 @@ class Preparation {
     return rounded_text(unit.from_si(si)) + (*unit.symbol == '\0' ? "" : " ") + unit.symbol;
   }
 
-  void note_left_out(int points, const std::string& why) {
+  void note_excluded(int points, const std::string& why) {
     if (points == 0) return;
-    found_.left_out += points;
+    found_.excluded += points;
     found_.notes.push_back(std::to_string(points) + (points == 1 ? " point is" : " points are") +
-                           " left out: " + why);
+                           " excluded: " + why);
   }
 
   // Takes the points up to the end of the loading history, which is run at the first of the
@@ -143,7 +143,7 @@ class Preparation {
       if (part.loadings > 1)
         found_.notes.push_back("the first of " + std::to_string(part.loadings) +
                                " loadings is fitted; `--rows` chooses the rows of another");
-      note_left_out(static_cast<int>(count - part.to),
+      note_excluded(static_cast<int>(count - part.to),
                     part.loadings > 1 ? "the way back, and other loadings"
                                       : "the way back from the largest displacement");
       count = part.to;
@@ -157,16 +157,16 @@ class Preparation {
       const auto held = std::find_if(measured_.x.begin(), measured_.x.end(),
                                      [&](double x) { return x >= 0.999 * most; });
       count = as_index(held - measured_.x.begin()) + 1;
-      note_left_out(static_cast<int>(measured_.x.size() - count), "after the largest strain");
+      note_excluded(static_cast<int>(measured_.x.size() - count), "after the largest strain");
     }
     if (travel || kind_ == CurveKind::stress_strain) {
       if (const fit::Limit limit = fit::limit_of({measured_.y.data(), count}); limit.to == count) {
-        note_left_out(static_cast<int>(count - limit.from),
+        note_excluded(static_cast<int>(count - limit.from),
                       "the load stays at its largest value, as at the limit of a sensor");
         count = limit.from;
       }
       const auto whole = fit::rows_before_break({measured_.y.data(), count});
-      note_left_out(static_cast<int>(count - whole),
+      note_excluded(static_cast<int>(count - whole),
                     "beyond the largest load, from which it falls by over 10 %");
       count = whole;
     }
@@ -183,9 +183,9 @@ class Preparation {
         found_.measured.push_back(measured_.y[i]);
       }
     }
-    note_left_out(beyond, "beyond the loading history, which ends at " + x_text(rows->x.back()) +
+    note_excluded(beyond, "beyond the loading history, which ends at " + x_text(rows->x.back()) +
                               " (its last step ends at a force, or the force leaves it)");
-    note_left_out(before, "before the loading history begins, at " + x_text(0.0));
+    note_excluded(before, "before the loading history begins, at " + x_text(0.0));
     refuse_poor_data();
   }
 
@@ -208,7 +208,7 @@ class Preparation {
       refuse(std::to_string(points) + (points == 1 ? " usable point" : " usable points") +
              " cannot determine " + std::to_string(unknowns_.size()) +
              (unknowns_.size() == 1 ? " unknown" : " unknowns") +
-             " and the noise; record more points, or leave out an `--unknown`");
+             " and the noise; record more points, or remove an `--unknown`");
     const auto [least, most] = std::minmax_element(found_.measured.begin(), found_.measured.end());
     if (*least == *most)
       refuse("`" + measured_.y_name +

@@ -16,7 +16,7 @@ struct PreparedCurve {
   std::vector<double> x, measured;  // SI, of the points used
   std::vector<double> weights;      // of the residuals, 1/SI
   double rows_each = 1.0;           // largest number of rows of which a point is the mean
-  int left_out = 0;                 // measured points that are not used
+  int excluded = 0;                 // measured points that are not used
   std::vector<std::string> notes;
 };
 

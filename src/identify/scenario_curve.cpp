@@ -101,15 +101,16 @@ scenario::Scenario part_for(CurveKind kind, const scenario::Scenario& scenario, 
   return part;
 }
 
-ScenarioCurve::ScenarioCurve(CurveKind kind, FixedRung rung, const scenario::Family& family,
+ScenarioCurve::ScenarioCurve(CurveKind kind, FixedModel fixed_model, const scenario::Family& family,
                              std::span<const Unknown> unknowns)
     : kind_(kind),
-      rung_(std::move(rung)),
-      fixed_(scenario::resolve(rung_.one, rung_.model)),
+      model_(std::move(fixed_model)),
+      fixed_(scenario::resolve(model_.one, model_.model)),
       family_(&family),
       unknowns_(unknowns) {
   const auto shape_at = [&](const Unknown& one, double value) {
-    return scene::shape_key(scenario::resolve(rung_.at({&one, 1}, std::array{value}), rung_.model));
+    return scene::shape_key(
+        scenario::resolve(model_.at({&one, 1}, std::array{value}), model_.model));
   };
   // Shapes that depend on an unknown are not used again and are not kept.
   shape_varies_ =
@@ -138,7 +139,7 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
     scene::SpecimenShapes fresh;
     scene::SpecimenShapes& shapes = shape_varies_ ? fresh : shapes_;
     const scene::Scene scene =
-        run::build_scene(one, *family_, shapes, scene::given_choice(one, rung_.model, shapes));
+        run::build_scene(one, *family_, shapes, scene::given_choice(one, model_.model, shapes));
     record = run::run_case(scene);
   } catch (const InputError& error) {
     failure_ = error.problems().front().message;
@@ -245,7 +246,7 @@ std::optional<ClosedCurve> ScenarioCurve::closed() const {
         std::holds_alternative<scenario::Cuboid>(tissue.shape) ||
         (space != nullptr && space->curvature == 0.0 && space->curvature_2.value_or(0.0) == 0.0);
     const auto* indent = std::get_if<scenario::Indent>(&fixed_.steps.front());
-    if (!scenario::rung(rung_.model).eq_2 || !flat || indent == nullptr ||
+    if (!scenario::traits(model_.model).eq_2 || !flat || indent == nullptr ||
         fixed_.finger.spheres != 1 || scenario::viscous_contact(fixed_) ||
         fixed_.contact.depth != scenario::Contact::Depth::hertz)
       return std::nullopt;

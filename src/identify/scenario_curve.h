@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 #include "identify/closed_curve.h"
-#include "identify/fixed_rung.h"
+#include "identify/fixed_model.h"
 #include "scene/specimen_shape.h"
 
 namespace palpate::identify {
@@ -53,7 +53,7 @@ struct CurveWords {
 class ScenarioCurve {
  public:
   // Keeps references to family and unknowns.
-  ScenarioCurve(CurveKind kind, FixedRung rung, const scenario::Family& family,
+  ScenarioCurve(CurveKind kind, FixedModel model, const scenario::Family& family,
                 std::span<const Unknown> unknowns);
 
   void set_points(std::vector<double> x) { x_ = std::move(x); }
@@ -82,13 +82,13 @@ class ScenarioCurve {
   // The case with the scenario's values of the unknowns, and with `values` (SI) instead.
   [[nodiscard]] const scenario::Resolved& fixed() const { return fixed_; }
   [[nodiscard]] scenario::Case at(std::span<const double> values) const {
-    return rung_.at(unknowns_, values);
+    return model_.at(unknowns_, values);
   }
   [[nodiscard]] CurveKind kind() const { return kind_; }
 
  private:
   CurveKind kind_;
-  FixedRung rung_;
+  FixedModel model_;
   scenario::Resolved fixed_;
   const scenario::Family* family_;
   std::span<const Unknown> unknowns_;

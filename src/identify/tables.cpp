@@ -60,7 +60,7 @@ std::string combination_sentence(const Identification& found, const Combination&
 }
 
 std::string model_sentence(const Identification& found) {
-  const std::string model = scenario::rung(found.rung).word;
+  const std::string model = scenario::traits(found.taken).word;
   const CurveWords& words = words_of(found.kind);
   std::string text = std::string(words.sentence) + ", by `" + model + "`";
   if (found.closed_form && found.scenario.uniform())
@@ -93,12 +93,13 @@ record::Table identified_table(const Identification& found) {
                    "interval",  "moved_down", "moved_up"};
   for (const Identified& one : found.unknowns) {
     const Unknown& unknown = one.unknown;
-    const std::optional<double> estimate = one.tied ? std::nullopt : std::optional(one.estimate);
+    const std::optional<double> estimate =
+        one.inseparable ? std::nullopt : std::optional(one.estimate);
     table.rows.push_back(
         {unknown.name(), unknown.unit_text(), cell(estimate, unknown), cell(one.std_error, unknown),
          cell(one.ci95_low, unknown), cell(one.ci95_high, unknown), word(one.at_bound),
-         word(!one.tied), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
-         one.tied ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
+         word(!one.inseparable), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
+         one.inseparable ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
          cell(one.moved_down, unknown), cell(one.moved_up, unknown)});
     if (unknown.unit_text().empty()) table.rows.back()[1] = Cell();
   }
@@ -153,7 +154,7 @@ record::Table profile_table(const Identification& found) {
 }
 
 EstimateTexts estimate_texts(const Identification& found, const Identified& one) {
-  if (one.tied) return {"not determined by itself", ""};
+  if (one.inseparable) return {"not determined by itself", ""};
   return {with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()),
           "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
               (one.by_profile ? ", by profile)" : ")") +
@@ -173,31 +174,31 @@ std::vector<std::string> identified_sentences(const Identification& found) {
     lines.push_back(combination_sentence(found, one));
   for (const GivenPart& part : found.givens)
     for (std::size_t i = 0; i < found.unknowns.size(); ++i)
-      if (const Unknown& unknown = found.unknowns[i].unknown; !found.unknowns[i].tied)
+      if (const Unknown& unknown = found.unknowns[i].unknown; !found.unknowns[i].inseparable)
         lines.push_back("Of this, `" + part.key + "` = " + part.value + " +- " + part.deviation +
                         " adds a standard error of " +
                         with_unit(unknown.shown(part.deviations[i]), unknown.unit_text()) +
                         " to `" + unknown.name() + "`.");
-  const auto points_of = [](const Identification& one, const std::string& worth) {
+  const auto points_of = [](const Identification& one, const std::string& size) {
     const CurveWords& words = words_of(one.kind);
     return std::to_string(one.x.size()) + " points" +
-           (one.left_out > 0 ? " (" + std::to_string(one.left_out) + " left out)" : "") + worth +
+           (one.excluded > 0 ? " (" + std::to_string(one.excluded) + " excluded)" : "") + size +
            ", RMSE " + with_unit(words.y.from_si(one.rmse), words.y.symbol) + ", R2 " +
            rounded_text(one.r2, 6);
   };
-  const std::string worth =
+  const std::string size =
       found.rho > 0.0
-          ? ", worth " + rounded_text(std::max(1.0, found.effective_size), 3) + " independent ones"
+          ? ", effective sample size " + rounded_text(std::max(1.0, found.effective_size), 3)
           : "";
   const std::string watson = ", Durbin-Watson " + rounded_text(found.durbin_watson, 3) + ".";
   if (found.pairs.empty()) {
     lines.push_back(model_sentence(found));
-    lines.push_back(points_of(found, worth) + watson);
+    lines.push_back(points_of(found, size) + watson);
   } else {
     for (std::size_t k = 0; k < found.pairs.size(); ++k)
       lines.push_back("Pair " + std::to_string(k + 1) + ": " + model_sentence(found.pairs[k]) +
                       " " + points_of(found.pairs[k], "") + ".");
-    lines.push_back(std::to_string(found.x.size()) + " points together" + worth + watson);
+    lines.push_back(std::to_string(found.x.size()) + " points together" + size + watson);
     for (std::size_t i = 0; i < found.unknowns.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (const double with = found.correlation[i * found.unknowns.size() + j];

@@ -9,12 +9,14 @@
 
 namespace palpate::identify {
 
-// unknown, unit, estimate, std_error, ci95_low, ci95_high, at_bound, tied, profile_low,
-// profile_high, interval, moved_down, moved_up: one row per unknown, then one per combination. Tied
-// unknowns have no numbers; `interval` names the interval to trust, `student` or `profile`.
+// unknown, unit, estimate, std_error, ci95_low, ci95_high, at_bound, not separately identifiable,
+// profile_low, profile_high, interval, moved_down, moved_up: one row per unknown, then one per
+// combination. Tied unknowns have no numbers; `interval` names the interval to trust, `student` or
+// `profile`.
 [[nodiscard]] record::Table identified_table(const Identification& found);
 
-// unknown, then one column per unknown; empty if one of the two is tied or at a bound.
+// unknown, then one column per unknown; empty if one of the two is not separately identifiable or
+// at a bound.
 [[nodiscard]] record::Table correlation_table(const Identification& found);
 
 // x, measured, model, residual, in the units of the curve.
@@ -38,7 +40,8 @@ struct EstimateTexts {
 };
 [[nodiscard]] EstimateTexts estimate_texts(const Identification& found, const Identified& one);
 
-// Lines for stdout: estimates, tied unknowns, model, residuals and effect of the contact point.
+// Lines for stdout: estimates, not separately identifiable unknowns, model, residuals and effect of
+// the contact point.
 [[nodiscard]] std::vector<std::string> identified_sentences(const Identification& found);
 
 }  // namespace palpate::identify

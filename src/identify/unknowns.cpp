@@ -36,18 +36,16 @@ const std::array<Extra, 5>& extras() {
 }
 
 struct Parts {
-  std::string key, low, high;
+  std::string key, low = "", high = "";  // empty where they are missing
 };
 
 Parts parts_of(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  const std::size_t dots = text.find("..", equals == std::string::npos ? 0 : equals);
-  const char* remedy = "is written `KEY=LOW..HIGH`, as `tissue.young_modulus=1 kPa..200 kPa`";
-  if (equals == std::string::npos || dots == std::string::npos) refuse(text, remedy);
-  Parts parts{trimmed(std::string_view(text).substr(0, equals)),
-              trimmed(std::string_view(text).substr(equals + 1, dots - equals - 1)),
-              trimmed(std::string_view(text).substr(dots + 2))};
-  if (parts.key.empty() || parts.low.empty() || parts.high.empty()) refuse(text, remedy);
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::size_t dots = text.find("..", equals);
+  Parts parts{.key = trimmed(std::string_view(text).substr(0, equals))};
+  if (dots == std::string::npos) return parts;
+  parts.low = trimmed(std::string_view(text).substr(equals + 1, dots - equals - 1));
+  parts.high = trimmed(std::string_view(text).substr(dots + 2));
   return parts;
 }
 
@@ -86,7 +84,13 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
     std::vector<std::string> names;
     for (const Extra& extra : extras()) names.emplace_back(extra.name);
     for (const auto& key : keys) names.push_back(key.path);
-    const auto near = nearest(name, names);
+    auto near = nearest(name, names);
+    if (!near) {  // without the table before it: `yong_modulus`
+      std::vector<std::string> last;
+      for (const std::string& one : names) last.push_back(one.substr(one.rfind('.') + 1));
+      if (const auto part = nearest(name, last))
+        near = names[as_index(std::find(last.begin(), last.end(), *part) - last.begin())];
+    }
     refuse(text, "names no number of this scenario" +
                      (near ? "; did you mean `" + *near + "`?"
                            : "; `palpate manual` lists the keys, and `contact_point`, "
@@ -101,7 +105,10 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
 
 Unknown read_unknown(const std::string& text, const Parts& parts,
                      const std::vector<scenario::NumericKey>& keys) {
+  const char* remedy = "is written `KEY=LOW..HIGH`, as `tissue.young_modulus=1 kPa..200 kPa`";
+  if (parts.key.empty()) refuse(text, remedy);
   const scenario::NumericKey key = find_key(text, parts.key, keys);
+  if (parts.low.empty() || parts.high.empty()) refuse(text, remedy);
   Unknown unknown;
   unknown.key = parts.key;
   unknown.unit = key.unit;
@@ -109,7 +116,8 @@ Unknown read_unknown(const std::string& text, const Parts& parts,
     if (parts.key == extra.name) unknown.what = extra.what;
   unknown.low = bound(text, key.unit ? with_unit(parts.low, parts.high) : parts.low, key.unit);
   unknown.high = bound(text, parts.high, key.unit);
-  if (!(unknown.low < unknown.high)) refuse(text, "wants a lower bound below the upper one");
+  if (!(unknown.low < unknown.high))
+    refuse(text, "wants a lower bound below the upper one; exchange the two");
   const Range& range = key.range;
   if (!range.holds(unknown.low) || !range.holds(unknown.high)) {
     std::string limits;

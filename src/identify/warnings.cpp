@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "fit/residual_tests.h"
-#include "identify/fixed_rung.h"
+#include "identify/fixed_model.h"
 #include "scenario/integrators.h"
 
 namespace palpate::identify {
@@ -25,12 +25,13 @@ std::vector<std::string> warnings_of(const Identification& found,
     warnings.push_back("R^2 is " + rounded_text(found.r2, 3) +
                        ", so that the model describes the curve poorly, and the estimates mean "
                        "little");
-  std::vector<std::string> tied;
+  std::vector<std::string> inseparable;
   for (const Identified& one : found.unknowns)
-    if (one.tied) tied.push_back("`" + one.unknown.name() + "`");
-  if (!tied.empty())
+    if (one.inseparable) inseparable.push_back("`" + one.unknown.name() + "`");
+  if (!inseparable.empty())
     warnings.push_back(
-        joined(tied, " and ") + (tied.size() > 1 ? " have no numbers" : " has no number") +
+        joined(inseparable, " and ") +
+        (inseparable.size() > 1 ? " have no numbers" : " has no number") +
         ": these data do not tell; give one by `--set` or `--given`, or add a test that "
         "differs, such as another radius or thickness, by `--with`");
   for (const Identified& one : found.unknowns)
@@ -40,15 +41,16 @@ std::vector<std::string> warnings_of(const Identification& found,
                          "`--set`");
   for (const Identification* one : views(found))
     if (one->predicted_error && *one->predicted_error > with.solver.tolerance)
-      warnings.push_back("the estimated error of `" + std::string(scenario::rung(one->rung).word) +
-                         "` is " + percent_text(*one->predicted_error) +
+      warnings.push_back("the estimated error of `" +
+                         std::string(scenario::traits(one->taken).word) + "` is " +
+                         percent_text(*one->predicted_error) +
                          " here, and the estimates are wrong by about as much" +
                          (one->given ? "; leave `solver.model` to `auto`" : ""));
   const auto waves = inertia_of_flow(with);
   if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
     warnings.push_back("waves in the specimen change its deformation by about " +
                        percent_text(*waves) +
-                       " and are left out; set `solver.integrator = \"central_difference\"`");
+                       " and are neglected; set `solver.integrator = \"central_difference\"`");
   return warnings;
 }
 
@@ -63,7 +65,7 @@ DefaultBody default_body(ScenarioCurve& curve, const scenario::Family& family,
   for (std::size_t i = 0; i < 3; ++i)
     body.text += (i > 0 ? " by " : "") + rounded_text(unit::mm.from_si(box->size[i]));
   body.text += " mm";
-  FixedRung half{.one = curve.at(values)};
+  FixedModel half{.one = curve.at(values)};
   half.one.scenario.tissue.shape = scenario::HalfSpace{};
   half.one.scenario.solver.model = scenario::Model::hertz;
   const auto on_block = curve.rows(values);

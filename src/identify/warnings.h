@@ -17,7 +17,7 @@ struct WeightedResiduals {
 };
 
 // On correlated residuals, few independent points, R^2 below 0.9, estimates at a bound, the model's
-// own error at the estimates, and waves that are left out.
+// own error at the estimates, and neglected inertia.
 [[nodiscard]] std::vector<std::string> warnings_of(const Identification& found,
                                                    const WeightedResiduals& residuals,
                                                    const scenario::Resolved& with);

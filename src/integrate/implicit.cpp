@@ -113,7 +113,7 @@ void TrBdf2::finish(State& state, const Vector& displacement, const Vector& load
   second_ = !second_;
 }
 
-void CreptLoad::set_step(double time_step) {
+void EquivalentLoad::set_step(double time_step) {
   steps_.clear();
   const auto add = [&](double time) {
     steps_.push_back(rule_ == MemoryRule::first_order
@@ -124,7 +124,7 @@ void CreptLoad::set_step(double time_step) {
   for (const tissue::Branch& branch : law_.branches) add(branch.time);
 }
 
-void CreptLoad::pass(const Vector& load) {
+void EquivalentLoad::pass(const Vector& load) {
   if (steps_.empty()) {
     crept_ = load;
     return;
@@ -153,7 +153,7 @@ void CreptLoad::pass(const Vector& load) {
   for (std::size_t k = 0; k < steps_.size(); ++k) memory_[k] += steps_[k].end * crept_;
 }
 
-void CreptLoad::renumber(const std::vector<Eigen::Index>& from) {
+void EquivalentLoad::renumber(const std::vector<Eigen::Index>& from) {
   const auto turn = [&](Vector& vector) {
     if (vector.size() == 0) return;
     const Vector old = vector;

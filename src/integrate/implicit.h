@@ -101,10 +101,10 @@ class TrBdf2 {
 // solution u = K^-1 J[L], where J[L] is the creep of L, degree of freedom by degree of freedom.
 // With Kelvin-Voigt's dashpots J[L] obeys tau J' + J = L, and in elastic bodies it is L.
 //                                           docs/theory.md, inertia in the contact; [branches]
-class CreptLoad {
+class EquivalentLoad {
  public:
   // `rule` is the memory rule of the mesh; any other than `first_order` is taken as `exact`.
-  CreptLoad(const tissue::ViscousLaw& law, MemoryRule rule) : law_(law), rule_(rule) {}
+  EquivalentLoad(const tissue::ViscousLaw& law, MemoryRule rule) : law_(law), rule_(rule) {}
 
   // Sets the size of the next steps, s.
   void set_step(double time_step);

@@ -140,14 +140,14 @@ class ArmLoop {
     return device::clamped_norm(force, most);
   }
 
-  // Advances the model. If it is more than some frames behind, it leaves out the rest of the time.
+  // Advances the model. If it is more than some frames behind, it drops the rest of the time.
   void follow() {
     const double passed = now_ - followed_;
     followed_ = now_;
     const bool limited = real_ && !recording_;
     const double taken = limited ? std::min(passed, most_frames_behind * period_) : passed;
     model_time_ += taken;
-    loop_.left_out += passed - taken;
+    loop_.dropped += passed - taken;
     if (failed_) return;
     if (auto wrong = loop_.model.follow(offset_, model_time_)) {
       failed_ = true;

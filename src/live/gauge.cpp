@@ -181,8 +181,8 @@ class GaugeLoop {
     if (change < beginning()) return false;
     tare_ = rest_.mean();
     if (std::abs(tare_) > told_tare * least)
-      loop_.remarks.push_back("the gauge showed " + rounded_text(1e3 * tare_, 3) +
-                              " mN at rest, which is taken out of all forces; tare it");
+      loop_.warnings.push_back("the gauge showed " + rounded_text(1e3 * tare_, 3) +
+                               " mN at rest, which is taken out of all forces; tare it");
     const auto contact = line_.surface();
     first_time_ =
         contact ? std::min(-*contact, time_of(first_.front())) : last_free_.value_or(time);

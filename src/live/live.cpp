@@ -118,7 +118,7 @@ void refuse_beyond_device(const scene::Scene& scene, const std::string& file,
   if (asked.uniform())
     throw InputError(place,
                      "is a uniform test, which no device carries out; give it `indent` steps, or "
-                     "leave out `--device`");
+                     "remove `--device`");
   const device::Address address = device::parse_link(options.link);
   if (!std::holds_alternative<device::StandAddress>(address) &&
       !std::holds_alternative<device::GaugeAddress>(address))
@@ -277,10 +277,10 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   }
   result.rows_are_written = log.rows_are_written();
   notes_.insert(notes_.end(), log.troubles().begin(), log.troubles().end());
-  result.warnings.insert(result.warnings.end(), loop.remarks.begin(), loop.remarks.end());
-  if (loop.left_out > 0.0)
-    result.warnings.push_back(rounded_text(loop.left_out, 3) +
-                              " s of late frames are left out of the model's time: the tissue's "
+  result.warnings.insert(result.warnings.end(), loop.warnings.begin(), loop.warnings.end());
+  if (loop.dropped > 0.0)
+    result.warnings.push_back(rounded_text(loop.dropped, 3) +
+                              " s of late frames are dropped from the model's time: the tissue's "
                               "relaxation and waves lag behind by that time");
   for (const std::vector<std::string>& sentences :
        {device::event_sentences(link_.traffic().events), device::health_warnings(health)})
@@ -290,7 +290,7 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
                      " frames were rendered less stiff than the tissue, because the device cannot "
                      "render it passively");
   using Why = LiveEnd::Why;
-  if (result.end.why == Why::too_long) record.remarks.push_back(result.end.sentence);
+  if (result.end.why == Why::too_long) record.warnings.push_back(result.end.sentence);
   if (result.end.why == Why::model) record.outcome = record::Outcome::diverged;
   if (result.end.why == Why::link || result.end.why == Why::interrupted)
     record.outcome = record::Outcome::stopped;

@@ -62,8 +62,8 @@ struct LiveLoop {
   std::uint64_t softened = 0;  // arm: number of frames with a stiffness reduced for passivity
   FreeReadings free = {};      // stand
   double moved_until = std::numeric_limits<double>::infinity();  // gauge: s; then it was waited for
-  std::vector<std::string> remarks = {};                         // about what the device showed
-  double left_out = 0.0;  // arm: s, time of late frames by which the model was not advanced
+  std::vector<std::string> warnings = {};                        // about what the device showed
+  double dropped = 0.0;  // arm: s, time of late frames by which the model was not advanced
 };
 
 // How a loop ended.

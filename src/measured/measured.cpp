@@ -82,7 +82,7 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
     if (x.falls) x_value = 0.0 - x_value;
     const bool whole = std::isfinite(x_value) && std::isfinite(y_value);
     if (!whole && layout.blanks == DataLayout::Blanks::leave_out) {
-      ++curve.left_out;
+      ++curve.excluded;
       continue;
     }
     curve.x_written.push_back(x_value);
@@ -225,10 +225,10 @@ MeasuredCurve parse_measured(std::string_view bytes, const std::string& file,
   curve.notes = table.notes;
   take(curve, table, layout);
   take_off_drift(curve, table, layout);
-  if (curve.left_out > 0)
-    curve.notes.push_back(std::to_string(curve.left_out) +
-                          (curve.left_out == 1 ? " row is" : " rows are") +
-                          " left out: a number is missing or not finite");
+  if (curve.excluded > 0)
+    curve.notes.push_back(std::to_string(curve.excluded) +
+                          (curve.excluded == 1 ? " row is" : " rows are") +
+                          " excluded: a number is missing or not finite");
   if (curve.x.empty())
     throw InputError({file, 0, 0}, "no row is left with a number in `" + curve.x_axis.column +
                                        "` and in `" + curve.y_axis.column +

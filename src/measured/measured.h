@@ -61,9 +61,9 @@ struct MeasuredCurve {
   std::vector<MeasuredColumn> beside;  // in the order of the layout
   std::vector<int> lines;              // line numbers of the points in the file
   bool guessed = false;                // a column was not named, and the table has more than two
-  int left_out = 0;                    // number of rows without two finite numbers
+  int excluded = 0;                    // number of rows without two finite numbers
   double bending = 0.0;                // m/N of a cantilever, which is taken off x
-  std::vector<std::string> notes;      // sentences on what was decided or left out
+  std::vector<std::string> notes;      // sentences on what was decided or excluded
 };
 
 // Reads two columns of a table in text, separated by commas, semicolons, tabs or blanks, with

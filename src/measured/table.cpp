@@ -217,7 +217,7 @@ class Reader {
       const int number = row.line->number;
       if (row.numbers.count == 0 && !row.numbers.all && !followed_by_numbers(i)) {
         table_.notes.push_back("the lines from line " + std::to_string(number) +
-                               " on contain no numbers and are left out");
+                               " on contain no numbers and are excluded");
         return;
       }
       drop_empty_ends(row.fields, width_);
@@ -309,7 +309,7 @@ std::vector<TableRow> rows_around(std::vector<TableRow>& rows, const std::vector
 }
 
 // The main table of the rows: the one asked for, or the longest. Tables with the same names follow
-// it as further segments, in a column `segment` that counts from 1; others are left out.
+// it as further segments, in a column `segment` that counts from 1; others are excluded.
 RawTable main_table(std::span<const Line> lines, std::vector<TableRow> rows,
                     const std::string& file, const Shape& shape, const DataLayout& layout) {
   const std::vector<Block> blocks = blocks_of(rows);
@@ -343,7 +343,7 @@ RawTable main_table(std::span<const Line> lines, std::vector<TableRow> rows,
                                            " and " + where[k] + "; choose one by `--table " +
                                            std::to_string(main + 1) + "` or `--table " +
                                            std::to_string(k + 1) + "`");
-      table.notes.push_back("the table on " + where[k] + " has other columns and is left out; `" +
+      table.notes.push_back("the table on " + where[k] + " has other columns and is excluded; `" +
                             "--table " + std::to_string(k + 1) + "` reads it");
     }
   }

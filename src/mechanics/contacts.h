@@ -92,7 +92,7 @@ class KeptList {
   std::size_t size_ = 0;
 };
 
-class BodySinking;
+class BodySurfaceDisplacement;
 
 // The nodal forces and gaps of a contact with the coupling `resolved`.
 struct NodalContact {
@@ -109,15 +109,15 @@ struct SphereContact {
   int sphere = 0;
   contact::Patch patch;
   contact::ContactLaw law;
-  double approach = 0.0;        // m, A of theory.md [one_contact]: the sphere below the surface
-  double depth = 0.0;           // m, h of eq. (2)
-  double force = 0.0;           // N, along the patch's normal
-  double elastic = 0.0;         // N, the part of `force` that the law gives for relaxed tissue
-  double radiated = 0.0;        // N, the part of `force` for waves that the mesh cannot resolve
-  double deep = 1.0;            // the factor [deep] of a deep press, in the law's `part` too
-  double compliance = 0.0;      // m/N, C_ii of docs/theory.md [contacts]
-  double sinking_error = 0.0;   // m/N, e of docs/theory.md [sinking]
-  double sinking_doubt = 0.0;   // m/N, BeyondHalfSpace::doubt
+  double approach = 0.0;    // m, A of theory.md [one_contact]: the sphere below the surface
+  double depth = 0.0;       // m, h of eq. (2)
+  double force = 0.0;       // N, along the patch's normal
+  double elastic = 0.0;     // N, the part of `force` that the law gives for relaxed tissue
+  double radiated = 0.0;    // N, the part of `force` for waves that the mesh cannot resolve
+  double deep = 1.0;        // the factor [deep] of a deep press, in the law's `part` too
+  double compliance = 0.0;  // m/N, C_ii of docs/theory.md [contacts]
+  double surface_displacement_error = 0.0;  // m/N, e of docs/theory.md [compliance]
+  double surface_displacement_doubt = 0.0;  // m/N, BeyondHalfSpace::doubt
   double stiffness = 0.0;       // N/m, derivative of `force` with respect to `depth`; where inertia
                                 // reaches the force, to the finger's position, within a step
   Vec3 drag = Vec3::Zero();     // N, tangential, on the tissue
@@ -139,7 +139,7 @@ struct SphereContact {
 [[nodiscard]] double peak_pressure(const SphereContact& contact);
 
 // The mesh's own error in the contact's force, a fraction of it; 0 where the law alone gives it.
-//                                                                   docs/theory.md [sinking]
+//                                                                docs/theory.md [compliance]
 [[nodiscard]] double mesh_error(const SphereContact& contact);
 
 // Position of the finger and the state of its contacts at one moment.
@@ -160,7 +160,8 @@ struct Touch {
 // tangential part of `move`, and Cattaneo and Mindlin's partial slip gives the drag, at most mu F;
 // with `contact.slip = "coulomb"` the drag is mu F along `move`. `beyond` renews the contacts'
 // `shear`; without it they keep it.                                      docs/theory.md [stick]
-void rub(const scene::Scene& scene, const Vec3& move, Touch& touch, BodySinking* beyond = nullptr);
+void rub(const scene::Scene& scene, const Vec3& move, Touch& touch,
+         BodySurfaceDisplacement* beyond = nullptr);
 
 // Why Hertz's law does not apply to tissue of the curvature `kappa_2` (1/m).
 [[nodiscard]] std::string hollow_text(double kappa_2);

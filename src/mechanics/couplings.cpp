@@ -9,7 +9,7 @@
 
 #include "contact/hertz.h"
 #include "mechanics/monitor.h"
-#include "mechanics/skin_contacts.h"
+#include "mechanics/surface_contacts.h"
 #include "scenario/integrators.h"
 #include "scene/time_plan.h"
 
@@ -53,7 +53,8 @@ double ContactInertia::sunk(const integrate::Vector& displacement,
   });
 }
 
-// Mean sinking under the wide patch of `own` per newton on the wide patch of `pressed`, m/N.
+// Mean surface displacement under the wide patch of `own` per newton on the wide patch of
+// `pressed`, m/N.
 double ContactInertia::sunk_by(Influence& by, const SphereContact& own,
                                const SphereContact& pressed) const {
   return over_nodes(*part_, own.wide, [&](int at) {
@@ -63,7 +64,8 @@ double ContactInertia::sunk_by(Influence& by, const SphereContact& own,
   });
 }
 
-// Mean static sinking under the wide patch of `own` by a load (N), m. The influence is symmetric.
+// Mean static surface displacement under the wide patch of `own` by a load (N), m. The influence is
+// symmetric.
 double ContactInertia::sunk_by(const integrate::Vector& load, const SphereContact& own) {
   return over_nodes(*part_, own.wide, [&](int node) {
     double sum = 0.0;
@@ -319,10 +321,10 @@ double farthest_reach(const scene::Scene& scene) {
 }  // namespace
 
 std::optional<std::string> OneWay::find(const Vec3& finger, Touch& touch) {
-  skin->detect(finger, nullptr);
-  return skin->find(finger, touch, [this](Touch& now) {
-    SkinContacts::guess_depth(now.contacts);
-    return skin->settle(
+  outer_surface->detect(finger, nullptr);
+  return outer_surface->find(finger, touch, [this](Touch& now) {
+    SurfaceContacts::guess_depth(now.contacts);
+    return outer_surface->settle(
         now, [](auto&, auto& compliance) -> auto& { return compliance; });
   });
 }
@@ -343,17 +345,17 @@ void Consistent::begin_part(const std::vector<Eigen::Index>& /*from*/) {
 void Consistent::make_ready() { beyond_->make_ready(farthest_reach(*part->scene)); }
 
 std::optional<std::string> Consistent::find(const Vec3& finger, Touch& touch) {
-  skin->detect(finger, nullptr);
-  return skin->find(
+  outer_surface->detect(finger, nullptr);
+  return outer_surface->find(
       finger, touch,
       [this](Touch& now) {
         // Steps in modes alone are frames in which every loaded node costs time.
         if (!part->in_modes)
-          for (SphereContact& contact : now.contacts) skin->spread_wide(contact);
-        SkinContacts::guess_depth(now.contacts);
-        return skin->settle(
+          for (SphereContact& contact : now.contacts) outer_surface->spread_wide(contact);
+        SurfaceContacts::guess_depth(now.contacts);
+        return outer_surface->settle(
             now, [&](auto&, Eigen::MatrixXd& compliance) -> auto& {
-              find_sinking(now.contacts, compliance);
+              find_surface_displacement(now.contacts, compliance);
               return compliance;
             });
       },
@@ -370,8 +372,8 @@ std::optional<std::string> Consistent::step(const StepTo& to) {
 // The surface displacement under the single sphere that a group of spheres with
 // `calibration = "force"` replaces: the mean over the group's contacts, weighted by their effective
 // depths, each with the patch of that sphere, which `joint` receives.
-BodySinking::Value Consistent::joint_sinking(const KeptList<SphereContact>& contacts,
-                                             contact::Patch& joint) {
+BodySurfaceDisplacement::Value Consistent::joint_surface_displacement(
+    const KeptList<SphereContact>& contacts, contact::Patch& joint) {
   double approaches = 0.0;
   for (const SphereContact& contact : contacts) {
     approaches += std::max(0.0, contact.approach);
@@ -381,16 +383,16 @@ BodySinking::Value Consistent::joint_sinking(const KeptList<SphereContact>& cont
   const double wider = std::pow(static_cast<double>(part->scene->finger.centres.size()), 1.0 / 6.0);
   joint.a *= wider;
   joint.b *= wider;
-  BodySinking::Value sum;
+  BodySurfaceDisplacement::Value sum;
   if (!(approaches > 0.0)) return sum;
   for (const SphereContact& contact : contacts) {
     if (contact.approach <= 0.0) continue;
     contact::Patch here = contact.patch;
     here.a = joint.a;
     here.b = joint.b;
-    const BodySinking::Value own = beyond_->at(here);
+    const BodySurfaceDisplacement::Value own = beyond_->at(here);
     const double weight = contact.approach / approaches;
-    sum.sinking += weight * own.sinking;
+    sum.surface_displacement += weight * own.surface_displacement;
     sum.slope += weight * own.slope;
     sum.error += weight * own.error;
     sum.doubt += weight * own.doubt;
@@ -401,7 +403,8 @@ BodySinking::Value Consistent::joint_sinking(const KeptList<SphereContact>& cont
 // The contact radius a is the one that stores the most energy, docs/theory.md [energy]:
 //   F = F_Hertz(a) / (1 - (5/3) E* a^2 s'(a)),   travel = a^2 / R + (s + a s') F.
 // Both take the form of the contact equations: the law times a factor, and a compliance.
-void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance) {
+void Consistent::find_surface_displacement(KeptList<SphereContact>& contacts,
+                                           Eigen::MatrixXd& compliance) {
   constexpr double most_stiffening = 0.8;
   const auto count = static_cast<Eigen::Index>(contacts.size());
   const bool as_one = presses_as_one(*part->scene);
@@ -409,11 +412,11 @@ void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd
   const double plane_modulus =
       tissue.young_modulus / (1.0 - tissue.poisson_ratio * tissue.poisson_ratio);
   contact::Patch joint;
-  BodySinking::Value of_all;
-  if (as_one) of_all = joint_sinking(contacts, joint);
+  BodySurfaceDisplacement::Value of_all;
+  if (as_one) of_all = joint_surface_displacement(contacts, joint);
   for (Eigen::Index i = 0; i < count; ++i) {
     SphereContact& own = contacts[as_index(i)];
-    const BodySinking::Value value = as_one ? of_all : beyond_->at(own.patch);
+    const BodySurfaceDisplacement::Value value = as_one ? of_all : beyond_->at(own.patch);
     const double radius = (as_one ? joint : own.patch).radius();
     // F_Hertz = 4/3 E* a h, for an ellipse with a modulus that makes this so. A layer's law knows
     // its own contact radius.
@@ -422,27 +425,27 @@ void Consistent::find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd
     const double stiffening =
         std::min(most_stiffening, 5.0 / 3.0 * modulus * radius * radius * value.slope);
     // The mesh is linear: it sinks by the force without the factor of a deep press.
-    own.sinking_error = value.error / own.deep;
-    own.sinking_doubt = value.doubt / own.deep;
-    double sinking = value.sinking / own.deep;
+    own.surface_displacement_error = value.error / own.deep;
+    own.surface_displacement_doubt = value.doubt / own.deep;
+    double surface_displacement = value.surface_displacement / own.deep;
     if (own.law.point.layer == nullptr) {
       own.law.point.part /= 1.0 - stiffening;
-      sinking += radius * value.slope / own.deep;
+      surface_displacement += radius * value.slope / own.deep;
     }
     if (as_one) {
-      compliance.row(i).head(count).setConstant(sinking);
+      compliance.row(i).head(count).setConstant(surface_displacement);
       continue;
     }
-    compliance(i, i) = sinking;
+    compliance(i, i) = surface_displacement;
     // Symmetrised, c_ij = (c_ij + c_ji) / 2, because readings at points are not quite symmetric.
     for (Eigen::Index j = 0; j < count; ++j) {
       if (i == j) continue;
       const SphereContact& other = contacts[as_index(j)];
-      const double between =
-          own.patch.normal.dot(other.patch.normal) *
-              contact::half_space_sinking((own.patch.position - other.patch.position).norm(), 1.0,
-                                          other.patch.radius(), plane_modulus) +
-          beyond_->rest(own.patch.normal, own.load, part->nodes, other.patch);
+      const double between = own.patch.normal.dot(other.patch.normal) *
+                                 contact::half_space_surface_displacement(
+                                     (own.patch.position - other.patch.position).norm(), 1.0,
+                                     other.patch.radius(), plane_modulus) +
+                             beyond_->rest(own.patch.normal, own.load, part->nodes, other.patch);
       compliance(i, j) += 0.5 * between / other.deep;
       compliance(j, i) += 0.5 * between / own.deep;
     }
@@ -481,7 +484,7 @@ double rise(const MovingPart& part, const Vector& displacement) {
 
 }  // namespace
 
-ConsistentWithInertia::ConsistentWithInertia(SkinContacts& contacts, MovingPart& moving)
+ConsistentWithInertia::ConsistentWithInertia(SurfaceContacts& contacts, MovingPart& moving)
     : OnMesh(contacts, moving),
       statics(contacts, moving),
       inertia_(moving),
@@ -496,7 +499,7 @@ void ConsistentWithInertia::begin_part(const std::vector<Eigen::Index>& from) {
 
 void ConsistentWithInertia::make_ready() {
   statics.make_ready();
-  inertia_.make_room(skin->most_contacts());
+  inertia_.make_room(outer_surface->most_contacts());
   inertia_.statics.ask_all();
   if (part->keeps_responses()) inertia_.response.ask_all();
 }
@@ -514,28 +517,28 @@ void ConsistentWithInertia::set_stage(double duration) {
 
 std::optional<std::string> ConsistentWithInertia::find(const Motion& motion, const StepTo& to) {
   // An oscillating surface may reach a finger that does not touch it at rest. Places that the
-  // finger touches neither on the surface at rest nor on the moving surface are left out.
-  skin->detect(to.finger, nullptr, rise(*part, motion.displacement))
+  // finger touches neither on the surface at rest nor on the moving surface are excluded.
+  outer_surface->detect(to.finger, nullptr, rise(*part, motion.displacement))
       .erase_if([&](SphereContact& contact) {
         if (contact.approach > 0.0) return false;
         contact.patch.axis = contact.patch.normal.unitOrthogonal();
-        skin->spread_wide(contact);
+        outer_surface->spread_wide(contact);
         return contact.approach - inertia_.sunk(motion.displacement, contact) <= 0.0;
       });
-  return skin->find(
+  return outer_surface->find(
       to.finger, to.touch,
       [&](Touch& now) -> std::optional<std::string> {
-        for (SphereContact& contact : now.contacts) skin->spread_wide(contact);
+        for (SphereContact& contact : now.contacts) outer_surface->spread_wide(contact);
         const auto complete = [&](std::vector<double>& approaches,
                                   Eigen::MatrixXd& compliance) -> const Eigen::MatrixXd& {
-          statics.find_sinking(now.contacts, compliance);
+          statics.find_surface_displacement(now.contacts, compliance);
           return inertia_.complete(motion, now.contacts, compliance, approaches);
         };
         do {
           inertia_.begin(motion, now.contacts);
-          if (auto wrong = skin->settle(now, complete)) return wrong;
+          if (auto wrong = outer_surface->settle(now, complete)) return wrong;
         } while (inertia_.release(motion, now.contacts));
-        inertia_.remember(motion, skin->compliance(), now.contacts);
+        inertia_.remember(motion, outer_surface->compliance(), now.contacts);
         return std::nullopt;
       },
       statics.body());
@@ -612,7 +615,7 @@ std::optional<std::string> ConsistentWithInertia::step(const StepTo& to) {
 }
 
 void FromMesh::make_ready() {
-  skin->make_room(next_);
+  outer_surface->make_room(next_);
   if (part->keeps_responses()) influence.ask_all();
 }
 
@@ -667,20 +670,21 @@ std::optional<std::string> Series::step(const StepTo& to) {
   const bool once = about(part->scene->scenario.solver.integrator).explicit_steps;
   const auto solve = [&](Touch& now) {
     const auto complete = [&](auto&, Eigen::MatrixXd& compliance) -> auto& {
-      if (!once) find_sinking(now.contacts, compliance);
+      if (!once) find_surface_displacement(now.contacts, compliance);
       return compliance;
     };
-    return skin->settle(now, complete, once ? 1 : SkinContacts::most_passes);
+    return outer_surface->settle(now, complete, once ? 1 : SurfaceContacts::most_passes);
   };
   const auto find = [&](const Vector& displacement, Touch& now) {
-    skin->detect(to.finger, &displacement);
-    return skin->find(to.finger, now, solve);
+    outer_surface->detect(to.finger, &displacement);
+    return outer_surface->find(to.finger, now, solve);
   };
   return step_by(MemoryRule::exact, find, to.touch);
 }
 
-// The sinking of the mesh under each contact per newton on each other, m/N.
-void Series::find_sinking(const KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance) {
+// The surface displacement of the mesh under each contact per newton on each other, m/N.
+void Series::find_surface_displacement(const KeptList<SphereContact>& contacts,
+                                       Eigen::MatrixXd& compliance) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j < count; ++j) {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "integrate/implicit.h"
-#include "mechanics/body_sinking.h"
+#include "mechanics/body_surface_displacement.h"
 #include "mechanics/contact_history.h"
 #include "mechanics/influence.h"
 #include "mechanics/resolved_contact.h"
-#include "mechanics/skin_contacts.h"
+#include "mechanics/surface_contacts.h"
 
 namespace palpate::mechanics {
 
@@ -31,7 +31,7 @@ class ContactInertia {
   // The part must outlive this.
   explicit ContactInertia(MovingPart& part);
 
-  // s of [inertia]: the mean sinking of the surface under a contact's wide patch, m.
+  // s of [inertia]: the mean surface displacement of the surface under a contact's wide patch, m.
   [[nodiscard]] double sunk(const integrate::Vector& displacement,
                             const SphereContact& contact) const;
 
@@ -104,7 +104,7 @@ struct StepTo {
 class OnMesh {
  public:
   // Both must outlive this.
-  OnMesh(SkinContacts& contacts, MovingPart& moving) : skin(&contacts), part(&moving) {}
+  OnMesh(SurfaceContacts& contacts, MovingPart& moving) : outer_surface(&contacts), part(&moving) {}
 
   // Whether the forces follow from the finger's position alone.
   static constexpr bool follows_finger = false;
@@ -114,7 +114,7 @@ class OnMesh {
   void make_ready() {}    // allocates and solves what later steps need
 
  protected:
-  SkinContacts* skin;
+  SurfaceContacts* outer_surface;
   MovingPart* part;
 };
 
@@ -131,7 +131,7 @@ class OneWay : public OnMesh {
 // `consistent` in statics: h = approach - C F.                        docs/theory.md [energy]
 class Consistent : public OnMesh {
  public:
-  Consistent(SkinContacts& contacts, MovingPart& moving) : OnMesh(contacts, moving) {
+  Consistent(SurfaceContacts& contacts, MovingPart& moving) : OnMesh(contacts, moving) {
     begin_part({});
   }
   static constexpr bool follows_finger = true;
@@ -141,36 +141,36 @@ class Consistent : public OnMesh {
   void make_ready();
 
   // Fills `compliance` (m/N) and the contacts' factors and errors of [energy].
-  void find_sinking(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance);
-  [[nodiscard]] BodySinking* body() { return &*beyond_; }
-  // The error of the sinking under a contact per tetrahedron of the part, m/N.
+  void find_surface_displacement(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance);
+  [[nodiscard]] BodySurfaceDisplacement* body() { return &*beyond_; }
+  // The error of the surface displacement under a contact per tetrahedron of the part, m/N.
   [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
-  // SymmetricSolver::error() of the sinking.
+  // SymmetricSolver::error() of the surface displacement.
   [[nodiscard]] double solution_error() const { return beyond_->solution_error(); }
   // Stores finer_load() of `touch`; displacement() of the part (m) adds its static displacement.
   void load_finely(const Touch& touch) { finer_load(touch, *part, finer_); }
   [[nodiscard]] integrate::Vector displacement();
 
  private:
-  [[nodiscard]] BodySinking::Value joint_sinking(const KeptList<SphereContact>& contacts,
-                                                 contact::Patch& joint);
+  [[nodiscard]] BodySurfaceDisplacement::Value joint_surface_displacement(
+      const KeptList<SphereContact>& contacts, contact::Patch& joint);
 
-  std::optional<BodySinking> beyond_;  // of the present part
-  integrate::Vector finer_;            // N
+  std::optional<BodySurfaceDisplacement> beyond_;  // of the present part
+  integrate::Vector finer_;                        // N
 };
 
 // `consistent` where inertia reaches the force, which then also follows from the mesh's deviation
 // from its static displacement.                                      docs/theory.md [inertia]
 class ConsistentWithInertia : public OnMesh {
  public:
-  ConsistentWithInertia(SkinContacts& contacts, MovingPart& moving);
+  ConsistentWithInertia(SurfaceContacts& contacts, MovingPart& moving);
   [[nodiscard]] std::optional<std::string> step(const StepTo& to);
   void begin_part(const std::vector<Eigen::Index>& from);
   void forget_steps() { inertia_.response.forget(); }
   void make_ready();
 
   // The load whose static displacement a mesh without inertia would have now, N.
-  [[nodiscard]] const integrate::Vector& crept_load() const {
+  [[nodiscard]] const integrate::Vector& equivalent_load() const {
     return crept_.load().size() > 0 ? crept_.load() : part->load;
   }
 
@@ -185,7 +185,7 @@ class ConsistentWithInertia : public OnMesh {
   void set_stage(double duration);
 
   ContactInertia inertia_;
-  integrate::CreptLoad crept_;
+  integrate::EquivalentLoad crept_;
   double stage_ = 0.0;                 // s, from one solution of the contacts to the next
   double slope_ = 1.0;                 // Motion::slope
   integrate::Vector drag_, acting_;    // N, of friction; during the step
@@ -196,7 +196,7 @@ class ConsistentWithInertia : public OnMesh {
 // displacement in explicit steps.
 class FromMesh : public OnMesh {
  public:
-  FromMesh(SkinContacts& contacts, MovingPart& moving)
+  FromMesh(SurfaceContacts& contacts, MovingPart& moving)
       : OnMesh(contacts, moving), influence(moving, Response::step) {}
   void begin_part(const std::vector<Eigen::Index>& /*from*/) { influence.forget(); }
   void forget_steps() { influence.forget(); }
@@ -228,13 +228,14 @@ class Series : public FromMesh {
   [[nodiscard]] std::optional<std::string> step(const StepTo& to);
 
  private:
-  void find_sinking(const KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance);
+  void find_surface_displacement(const KeptList<SphereContact>& contacts,
+                                 Eigen::MatrixXd& compliance);
 };
 
 // `resolved`: node by node, in implicit steps only.
 class Resolved : public FromMesh {
  public:
-  Resolved(SkinContacts& contacts, MovingPart& moving)
+  Resolved(SurfaceContacts& contacts, MovingPart& moving)
       : FromMesh(contacts, moving), contact_(moving) {}
   [[nodiscard]] std::optional<std::string> step(const StepTo& to);
 

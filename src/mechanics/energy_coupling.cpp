@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "scenario/rungs.h"
+#include "scenario/model_traits.h"
 #include "tissue/coupled.h"
 
 namespace palpate::mechanics {
@@ -19,8 +19,8 @@ using integrate::Vector;
 
 namespace {
 
-// Relative error of solutions in the energy norm. The sinking is an energy: its error is the
-// square.
+// Relative error of solutions in the energy norm. The surface displacement is an energy: its error
+// is the square.
 constexpr double tolerance = 3e-4;
 
 // Under the patch itself nothing is left over, because the finger's pressure acts there.
@@ -37,10 +37,10 @@ constexpr double seen_width = 0.45;
 // Quadrature of the half-space's tractions over the faces, for one patch.
 class EnergyCoupling::Loads {
  public:
-  Loads(const geometry::TetMesh& mesh, const geometry::SmoothSurface& skin,
+  Loads(const geometry::TetMesh& mesh, const geometry::SmoothSurface& outer_surface,
         const contact::Patch& patch, const Tissue& tissue, int finer, const Vec3& along)
       : mesh_(&mesh),
-        skin_(&skin),
+        outer_surface_(&outer_surface),
         patch_(&patch),
         axes_(axes_of(patch)),
         field_(patch.a, patch.b, {tissue.shear_modulus, tissue.elastic.poisson_ratio}, finer,
@@ -125,8 +125,8 @@ class EnergyCoupling::Loads {
         geometry::SurfacePoint at{.triangle = face.triangle, .weights = Vec3::Zero()};
         for (std::size_t k = 0; k < 3; ++k)
           at.weights[face.corners[k]] = shares[static_cast<Eigen::Index>(k)];
-        point = local(skin_->position(at));
-        normal = axes_.transpose() * skin_->normal(at);
+        point = local(outer_surface_->position(at));
+        normal = axes_.transpose() * outer_surface_->normal(at);
       }
       if (!face.interface && normal.z() > 0.0 && std::abs(point.z()) < patch_->a) {
         const double x = point.x() / patch_->a;
@@ -196,7 +196,7 @@ class EnergyCoupling::Loads {
   }
 
   const geometry::TetMesh* mesh_;
-  const geometry::SmoothSurface* skin_;
+  const geometry::SmoothSurface* outer_surface_;
   const contact::Patch* patch_;
   Eigen::Matrix3d axes_;  // columns: the patch's axes
   contact::PatchField field_;
@@ -208,12 +208,12 @@ class EnergyCoupling::Loads {
 
 EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& part,
                                std::span<const char> held, double unit)
-    : skin_(&*scene.specimen->surface),
+    : outer_surface_(&*scene.specimen->surface),
       held_(held.begin(), held.end()),
       springs_(part.network),
       solver_(tolerance),
-      volume_(scenario::rung(scene.scenario.solver.model).coupled() ? scene.scenario.solver.volume
-                                                                    : tissue::Volume::nodal) {
+      volume_(scenario::traits(scene.scenario.solver.model).coupled() ? scene.scenario.solver.volume
+                                                                      : tissue::Volume::nodal) {
   const scene::Specimen& specimen = *scene.specimen;
   std::vector<int> number(specimen.mesh.nodes.size(), -1);
   for (std::size_t n = 0; n < part.nodes.size(); ++n)
@@ -231,12 +231,12 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
   for (const auto& triangle : specimen.surface->surface().triangles) {
     std::array<int, 3> nodes{};
     for (std::size_t k = 0; k < 3; ++k)
-      nodes[k] = number[as_index(specimen.skin[as_index(triangle[k])])];
+      nodes[k] = number[as_index(specimen.outer_surface[as_index(triangle[k])])];
     std::sort(nodes.begin(), nodes.end());
-    triangle_of_[nodes] = static_cast<int>(skin_triangles_.size());
-    skin_triangles_.push_back(nodes);
+    triangle_of_[nodes] = static_cast<int>(surface_triangles_.size());
+    surface_triangles_.push_back(nodes);
   }
-  for (const int node : specimen.skin) part_node_.push_back(number[as_index(node)]);
+  for (const int node : specimen.outer_surface) part_node_.push_back(number[as_index(node)]);
   std::map<std::array<int, 2>, int> around;
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
     const auto& corners = mesh_.tetrahedra[t];
@@ -265,7 +265,7 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
 }
 
 // The linear finite elements of the mesh are its coupled springs; those of a region without
-// stiffness are left out.
+// stiffness are excluded.
 BlockMatrix EnergyCoupling::stiffness(int without) const {
   std::vector<tissue::Isotropic> tissues;
   for (const Tissue& tissue : tissues_) tissues.push_back(tissue.elastic);
@@ -294,7 +294,7 @@ void EnergyCoupling::find_tissues(const scene::Scene& scene, double unit) {
 }
 
 int EnergyCoupling::region_under(int triangle) const {
-  const std::array<int, 3>& key = skin_triangles_[as_index(triangle)];
+  const std::array<int, 3>& key = surface_triangles_[as_index(triangle)];
   const auto found = std::lower_bound(
       uses_.begin(), uses_.end(), key,
       [](const geometry::FaceUse& use, const auto& wanted) { return use.key < wanted; });
@@ -325,9 +325,10 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
       face.held[axis] = std::all_of(own.nodes.begin(), own.nodes.end(), [&](int node) {
         return held_[3 * as_index(node) + axis] != 0;
       });
-    if (const auto skin = triangle_of_.find(own.key); !shared && skin != triangle_of_.end()) {
-      face.triangle = skin->second;
-      const auto& vertices = skin_->surface().triangles[as_index(face.triangle)];
+    if (const auto outer_surface = triangle_of_.find(own.key);
+        !shared && outer_surface != triangle_of_.end()) {
+      face.triangle = outer_surface->second;
+      const auto& vertices = outer_surface_->surface().triangles[as_index(face.triangle)];
       for (std::size_t k = 0; k < 3; ++k)
         for (int c = 0; c < 3; ++c)
           if (part_node_[as_index(vertices[as_index(c)])] == own.nodes[k]) face.corners[k] = c;
@@ -366,7 +367,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
   for (const auto& [patch, along, sum_of_two] : presses) {
     const int region = region_under(patch.at.triangle);
     const Home& here = home(region);
-    Loads loads(mesh_, *skin_, patch, tissues_[as_index(region)], finer, along);
+    Loads loads(mesh_, *outer_surface_, patch, tissues_[as_index(region)], finer, along);
     Case& one = cases.emplace_back(
         Case{region, {}, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
     for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
@@ -403,9 +404,10 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
     result.rest = std::move(rest[i]);
     result.rest += one.held_by;
     const Vector reaction = solver_.matrix() * result.rest - one.loads;
-    result.sinking = one.known + one.loads.dot(result.rest) + 2.0 * one.curved.dot(result.rest);
+    result.surface_displacement =
+        one.known + one.loads.dot(result.rest) + 2.0 * one.curved.dot(result.rest);
     for (Eigen::Index d = 0; d < freedoms; ++d)
-      if (held_[as_index(d)] != 0) result.sinking -= reaction[d] * one.held_by[d];
+      if (held_[as_index(d)] != 0) result.surface_displacement -= reaction[d] * one.held_by[d];
     find_errors(presses[i].patch, one.interpolated, one.region, home(one.region), result);
   }
   return results;
@@ -528,16 +530,16 @@ void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& inte
 
 // The volume between a face and the smooth surface over it, by three points.
 double EnergyCoupling::cut_off(const Face& face) const {
-  const auto& corners = skin_->surface().triangles[as_index(face.triangle)];
+  const auto& corners = outer_surface_->surface().triangles[as_index(face.triangle)];
   const auto vertex = [&](std::size_t k) -> const Vec3& {
-    return skin_->surface().vertices[as_index(corners[k])];
+    return outer_surface_->surface().vertices[as_index(corners[k])];
   };
   const Vec3 twice_area = (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0));
   double sum = 0.0;
   for (int k = 0; k < 3; ++k) {
     geometry::SurfacePoint at{.triangle = face.triangle, .weights = Vec3::Constant(0.5)};
     at.weights[k] = 0.0;  // the middles of the sides: exact to degree 2
-    sum += (skin_->position(at) - skin_->flat_position(at)).dot(twice_area) / 6.0;
+    sum += (outer_surface_->position(at) - outer_surface_->flat_position(at)).dot(twice_area) / 6.0;
   }
   return sum;
 }

@@ -18,8 +18,9 @@ namespace palpate::mechanics {
 // The difference between the body and a half-space of the tissue at the contact, both loaded by
 // 1 N, with the shape of Hertz's pressure, over the patch.
 struct BeyondHalfSpace {
-  double sinking = 0.0;        // m/N: s of theory.md [sinking], along the load, averaged with it
-  double error = 0.0;          // m/N: e of [sinking]; s + e is the better value
+  double surface_displacement =
+      0.0;                     // m/N: s of theory.md [compliance], along the load, averaged with it
+  double error = 0.0;          // m/N: e of [compliance]; s + e is the better value
   double doubt = 0.0;          // m/N: what the flat faces of a round boundary may cost in s, and
                                // what wide tetrahedra may cost that e does not see
   std::vector<double> errors;  // m/N, both per tetrahedron of the part
@@ -31,7 +32,7 @@ struct BeyondHalfSpace {
 // The displacement under a contact is the half-space's, known in closed form, plus a rest that is
 // smooth under the contact; only the rest is solved for, with the linear finite elements of the
 // mesh, which coupled springs are. It is loaded and read through the same nodal loads.
-//                                                      docs/theory.md [split], [sinking]
+//                                                      docs/theory.md [split], [compliance]
 class EnergyCoupling {
  public:
   // `held` has the supports' flags, one per degree of freedom of the part. Moduli are
@@ -103,11 +104,11 @@ class EnergyCoupling {
 
   geometry::TetMesh mesh_;  // of the part
   std::vector<geometry::FaceUse> uses_;
-  const geometry::SmoothSurface* skin_;
-  std::vector<std::array<int, 3>> skin_triangles_;  // nodes of the part, ascending
-  std::map<std::array<int, 3>, int> triangle_of_;   // of the same nodes
-  std::vector<int> part_node_;                      // per vertex of the surface
-  std::vector<Tissue> tissues_;                     // per region
+  const geometry::SmoothSurface* outer_surface_;
+  std::vector<std::array<int, 3>> surface_triangles_;  // nodes of the part, ascending
+  std::map<std::array<int, 3>, int> triangle_of_;      // of the same nodes
+  std::vector<int> part_node_;                         // per vertex of the surface
+  std::vector<Tissue> tissues_;                        // per region
   std::vector<Element> elements_;
   std::vector<std::optional<Home>> homes_;  // per region
   std::vector<char> held_;

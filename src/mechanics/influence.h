@@ -11,13 +11,13 @@
 
 namespace palpate::mechanics {
 
-// Stored compliances between pairs of skin vertices, valid until the mesh's stiffness changes.
+// Stored compliances between pairs of surface vertices, valid until the mesh's stiffness changes.
 // Displacements of a read vertex per newton on a pressed vertex (m/N, one column per axis of the
 // load), and their components along two normals as long as these normals do not change.
 class PairTable {
  public:
-  // Sets the normals for at(): n = `read` of the contact whose sinking is computed, m = `pressed`
-  // of the contact that presses.
+  // Sets the normals for at(): n = `read` of the contact whose surface displacement is computed, m
+  // = `pressed` of the contact that presses.
   void look(const Vec3& read, const Vec3& pressed) {
     if (read == read_ && pressed == pressed_) return;
     ++turn_;

@@ -21,7 +21,7 @@ tissue::Part first_part(const scene::Scene& scene) {
   const auto& corners =
       specimen.surface->surface().triangles[as_index(scene::first_touch(scene).at.triangle)];
   std::vector<int> start;
-  for (const int vertex : corners) start.push_back(specimen.skin[as_index(vertex)]);
+  for (const int vertex : corners) start.push_back(specimen.outer_surface[as_index(vertex)]);
   return tissue::part_around(specimen.network, start, *rings);
 }
 
@@ -66,7 +66,7 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
   for (std::size_t i = 0; i < part.nodes.size(); ++i)
     number[as_index(part.nodes[i])] = static_cast<int>(i);
   nodes.clear();
-  for (const int node : specimen.skin) nodes.push_back(number[as_index(node)]);
+  for (const int node : specimen.outer_surface) nodes.push_back(number[as_index(node)]);
 
   std::vector<char> held(3 * part.nodes.size());
   for (std::size_t d = 0; d < held.size(); ++d)
@@ -191,10 +191,10 @@ void MovingPart::respond(Response response, std::span<const Vector> loads,
   if (!statics.solve(loads, moved)) throw MeshError(tissue::not_held);
 }
 
-void MovingPart::add_dropped(const Vector& crept_load, Vector& moved) {
+void MovingPart::add_dropped(const Vector& equivalent_load, Vector& moved) {
   const auto* modal = std::get_if<integrate::Modal>(&stepper->method());
-  if (modal == nullptr || modal->keeps_all() || crept_load.size() == 0) return;
-  modal->dropped(crept_load, unloaded);
+  if (modal == nullptr || modal->keeps_all() || equivalent_load.size() == 0) return;
+  modal->dropped(equivalent_load, unloaded);
   moved += unloaded;
 }
 

@@ -42,8 +42,9 @@ struct MovingPart {
   // The same for several loads at once, of a response in statics.
   void respond(Response response, std::span<const integrate::Vector> loads,
                std::span<integrate::Vector> moved);
-  // Adds the static displacement under `crept_load` (N) of the modes that modal steps do not keep.
-  void add_dropped(const integrate::Vector& crept_load, integrate::Vector& moved);
+  // Adds the static displacement under `equivalent_load` (N) of the modes that modal steps do not
+  // keep.
+  void add_dropped(const integrate::Vector& equivalent_load, integrate::Vector& moved);
   // Whether the responses of a step serve all steps of one size.
   [[nodiscard]] bool keeps_responses() const;
 
@@ -72,7 +73,7 @@ struct MovingPart {
   bool in_modes = false;
   bool still = false;
   // This load, if `still`, or if modal steps drop modes that follow it without inertia.
-  std::optional<integrate::CreptLoad> crept;
+  std::optional<integrate::EquivalentLoad> crept;
   bool shown = true;  // whether `state` is up to date
 };
 

@@ -9,23 +9,26 @@ namespace {
 
 using integrate::Vector;
 
-Coupling make_coupling(SkinContacts& skin, MovingPart& part) {
+Coupling make_coupling(SurfaceContacts& outer_surface, MovingPart& part) {
   const scenario::Resolved& scenario = part.scene->scenario;
   switch (scenario.contact.coupling) {
-    case contact::Coupling::one_way: return Coupling(std::in_place_type<OneWay>, skin, part);
-    case contact::Coupling::series: return Coupling(std::in_place_type<Series>, skin, part);
-    case contact::Coupling::resolved: return Coupling(std::in_place_type<Resolved>, skin, part);
+    case contact::Coupling::one_way:
+      return Coupling(std::in_place_type<OneWay>, outer_surface, part);
+    case contact::Coupling::series:
+      return Coupling(std::in_place_type<Series>, outer_surface, part);
+    case contact::Coupling::resolved:
+      return Coupling(std::in_place_type<Resolved>, outer_surface, part);
     case contact::Coupling::consistent: break;
   }
   if (scene::inertia_reaches_force(scenario))
-    return Coupling(std::in_place_type<ConsistentWithInertia>, skin, part);
-  return Coupling(std::in_place_type<Consistent>, skin, part);
+    return Coupling(std::in_place_type<ConsistentWithInertia>, outer_surface, part);
+  return Coupling(std::in_place_type<Consistent>, outer_surface, part);
 }
 
 }  // namespace
 
 PressedMesh::PressedMesh(const scene::Scene& scene)
-    : part_(scene), skin_(part_), coupling_(make_coupling(skin_, part_)) {}
+    : part_(scene), outer_surface_(part_), coupling_(make_coupling(outer_surface_, part_)) {}
 
 void PressedMesh::set_step(double time_step) {
   if (time_step != part_.time_step)
@@ -54,7 +57,7 @@ void PressedMesh::set_step(double time_step) {
 // - contacts beyond four per sphere, once each.
 void PressedMesh::make_ready(Touch& touch) {
   const scene::Scene& scene = *part_.scene;
-  start_.reserve(contact::most_shares * skin_.most_contacts());
+  start_.reserve(contact::most_shares * outer_surface_.most_contacts());
   for (std::vector<char>* flags : {&reach_.inside, &reach_.moving})
     flags->reserve(scene.specimen->network.rest.size());
 
@@ -67,7 +70,7 @@ void PressedMesh::make_ready(Touch& touch) {
   for (const int i : {1, 2}) (void)step(away, i * part_.time_step, none, touch);
   part_.state.time = 0.0;
   touch.finger = place;
-  skin_.make_room(touch);  // after these steps, which may exchange it for another one
+  outer_surface_.make_room(touch);  // after these steps, which may exchange it for another one
   std::visit([](auto& coupling) { coupling.make_ready(); }, coupling_);
 }
 
@@ -129,7 +132,7 @@ void PressedMesh::follow(const Touch& touch) {
   start_.clear();
   for (const SphereContact& contact : touch.contacts)
     for (const int vertex : contact.load.vertices)
-      start_.push_back(specimen.skin[as_index(vertex)]);
+      start_.push_back(specimen.outer_surface[as_index(vertex)]);
   if (start_.empty()) return;
   const int rings = *part_.scene->scenario.solver.rings;
   tissue::reach_around(specimen.network, start_, rings, reach_);
@@ -156,7 +159,7 @@ Vector PressedMesh::displacement() {
   Consistent* consistent = statics();
   Vector moved = consistent != nullptr ? consistent->displacement() : part_.state.displacement;
   if (const auto* moving = std::get_if<ConsistentWithInertia>(&coupling_))
-    part_.add_dropped(moving->crept_load(), moved);
+    part_.add_dropped(moving->equivalent_load(), moved);
   return of_specimen(moved);
 }
 

@@ -36,7 +36,7 @@ class PressedMesh {
   [[nodiscard]] std::optional<std::string> try_out(const Vec3& finger, Touch& touch);
 
   // The mesh's error in what it sinks under such a contact, per tetrahedron of the moving part,
-  // m/N; for `consistent`.                                         docs/theory.md [sinking]
+  // m/N; for `consistent`.                                      docs/theory.md [compliance]
   [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
 
   // One step of the mesh alone, under the forces of `touch`; public for timing.
@@ -81,7 +81,7 @@ class PressedMesh {
   [[nodiscard]] integrate::Vector of_specimen(const integrate::Vector& of_part) const;
 
   MovingPart part_;
-  SkinContacts skin_;
+  SurfaceContacts outer_surface_;
   Coupling coupling_;
   std::vector<int> start_;  // nodes around which the part is chosen
   tissue::Reach reach_;     // of that part

@@ -28,19 +28,19 @@ double hat_potential(const Vec3& a, const Vec3& b, const Vec3& c) {
 }  // namespace
 
 // Computed before the first step, because asinh() may differ between processors in its last bit.
-SkinNodes::SkinNodes(const geometry::SmoothSurface& surface) : surface_(&surface) {
-  const geometry::Surface& skin = surface.surface();
-  triangles_.resize(skin.triangles.size());
+SurfaceNodes::SurfaceNodes(const geometry::SmoothSurface& surface) : surface_(&surface) {
+  const geometry::Surface& outer_surface = surface.surface();
+  triangles_.resize(outer_surface.triangles.size());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const int number = static_cast<int>(t);
     Triangle& triangle = triangles_[t];
-    const Vec3 twice = geometry::twice_area(skin, number);
+    const Vec3 twice = geometry::twice_area(outer_surface, number);
     triangle.area = 0.5 * twice.norm();
     triangle.normal = twice.normalized();
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t next = (i + 1) % 3;
       const auto corner = [&](std::size_t k) -> const Vec3& {
-        return skin.vertices[as_index(skin.triangles[t][k % 3])];
+        return outer_surface.vertices[as_index(outer_surface.triangles[t][k % 3])];
       };
       const Vec3 side = corner(next) - corner(i);
       triangle.squares += side.squaredNorm();
@@ -51,7 +51,7 @@ SkinNodes::SkinNodes(const geometry::SmoothSurface& surface) : surface_(&surface
   }
 }
 
-std::optional<PressedNode> SkinNodes::facing(int vertex, const Ball& ball) const {
+std::optional<PressedNode> SurfaceNodes::facing(int vertex, const Ball& ball) const {
   constexpr double least_facing = 0.2;  // cosine; triangles turned further away are not pressed
   PressedNode node;
   node.vertex = vertex;
@@ -109,18 +109,19 @@ void NodalTouches::fill(int sphere, const Ball& ball, const std::vector<PushedNo
   double total = 0.0;
   double area = 0.0;
   for (const PushedNode& one : nodes) {
-    if (one.skin.sphere != sphere) continue;
-    contact.nodal.vertices.push_back(one.skin.vertex);
+    if (one.outer_surface.sphere != sphere) continue;
+    contact.nodal.vertices.push_back(one.outer_surface.vertex);
     contact.nodal.gap.push_back(std::max(0.0, one.left));
     if (one.force <= 0.0) continue;
-    contact.load.vertices.push_back(one.skin.vertex);
+    contact.load.vertices.push_back(one.outer_surface.vertex);
     contact.load.shares.push_back(one.force);
     contact.nodal.push.push_back(one.force * one.push);
     sum += one.force * one.push;
-    centre += one.force * one.skin.place;
-    contact.nodal.peak_pressure = std::max(contact.nodal.peak_pressure, one.force / one.skin.area);
+    centre += one.force * one.outer_surface.place;
+    contact.nodal.peak_pressure =
+        std::max(contact.nodal.peak_pressure, one.force / one.outer_surface.area);
     total += one.force;
-    area += one.skin.area;
+    area += one.outer_surface.area;
   }
   if (total <= 0.0) {
     touch.contacts.erase(touch.contacts.size() - 1);
@@ -129,14 +130,14 @@ void NodalTouches::fill(int sphere, const Ball& ball, const std::vector<PushedNo
   contact.force = sum.norm();
   for (double& share : contact.load.shares) share /= total;
   for (Vec3& push : contact.nodal.push) push /= contact.force;
-  const auto foot = surface_->foot(ball.centre, tree_.nearest(ball.centre));
-  contact.patch.at = foot.at;
+  const auto closest_point = surface_->closest_point(ball.centre, tree_.nearest(ball.centre));
+  contact.patch.at = closest_point.at;
   contact.patch.position = centre / total;
   contact.patch.normal = -sum / contact.force;
   contact.patch.axis = contact.patch.normal.unitOrthogonal();
   contact.patch.a = contact.patch.b = std::sqrt(area / std::numbers::pi);
-  contact.approach = contact.depth = ball.radius - foot.height;
-  contact.law = law_for_estimates(foot.at);
+  contact.approach = contact.depth = ball.radius - closest_point.height;
+  contact.law = law_for_estimates(closest_point.at);
   for (const SphereContact& old : before.contacts)
     if (old.sphere == sphere) contact.stretch = old.stretch;
 }
@@ -162,7 +163,7 @@ ResolvedContact::ResolvedContact(const MovingPart& part)
     : part_(&part),
       scene_(part.scene),
       surface_(&*scene_->specimen->surface),
-      skin_(*surface_),
+      outer_surface_(*surface_),
       touches_(*scene_),
       finger_compliance_(scene_->finger.compliance_share / scene_->finger.whole.modulus) {
   for (const Vec3& centre : scene_->finger.centres)
@@ -197,11 +198,11 @@ void ResolvedContact::look(const Vec3& finger, const integrate::Vector& displace
       sphere = i;
     }
     if (sphere < 0) continue;
-    const auto skin = skin_.facing(v, balls_[as_index(sphere)]);
-    if (!skin) continue;
+    const auto outer_surface = outer_surface_.facing(v, balls_[as_index(sphere)]);
+    if (!outer_surface) continue;
     Candidate one;
-    one.skin = *skin;
-    one.skin.sphere = sphere;
+    one.outer_surface = *outer_surface;
+    one.outer_surface.sphere = sphere;
     one.node = node;
     one.base = one.moved = base;
     one.sought = pressed.contains(v);
@@ -213,8 +214,8 @@ void ResolvedContact::look(const Vec3& finger, const integrate::Vector& displace
 void ResolvedContact::measure_gaps() {
   const bool by_sphere = sphere_normals();
   for (Candidate& one : candidates_) {
-    const Ball& ball = balls_[as_index(one.skin.sphere)];
-    const Vec3 to_centre = ball.centre - one.skin.place;
+    const Ball& ball = balls_[as_index(one.outer_surface.sphere)];
+    const Vec3 to_centre = ball.centre - one.outer_surface.place;
     if (by_sphere) {
       // |x - c| - R, linearised at the present position of the node
       const Vec3 from_centre = one.moved - to_centre;
@@ -223,21 +224,23 @@ void ResolvedContact::measure_gaps() {
     } else {
       // Distance to the sphere along the normal at rest, from the node at rest, minus its
       // displacement; infinite if the normal misses the sphere.
-      one.push = -one.skin.normal;
-      const double height = to_centre.dot(one.skin.normal);
+      one.push = -one.outer_surface.normal;
+      const double height = to_centre.dot(one.outer_surface.normal);
       const double chord = ball.radius * ball.radius - to_centre.squaredNorm() + height * height;
       one.gap = chord <= 0.0 ? std::numeric_limits<double>::infinity()
                              : height - std::sqrt(chord) + one.push.dot(one.base);
     }
-    one.gap += one.skin.facets;
+    one.gap += one.outer_surface.facets;
   }
 }
 
 // The finger's displacement at a node per newton on another, m/N, as a half-space.
-double ResolvedContact::finger_sinking(const Candidate& at, const Candidate& pressed) const {
-  if (at.skin.sphere != pressed.skin.sphere) return 0.0;
-  const double inverse =
-      &at == &pressed ? at.skin.own : 1.0 / (at.skin.place - pressed.skin.place).norm();
+double ResolvedContact::finger_surface_displacement(const Candidate& at,
+                                                    const Candidate& pressed) const {
+  if (at.outer_surface.sphere != pressed.outer_surface.sphere) return 0.0;
+  const double inverse = &at == &pressed
+                             ? at.outer_surface.own
+                             : 1.0 / (at.outer_surface.place - pressed.outer_surface.place).norm();
   return finger_compliance_ * inverse / std::numbers::pi;
 }
 
@@ -287,7 +290,7 @@ std::optional<std::string> ResolvedContact::solve(Influence& influence) {
       for (Index j = 0; j < count; ++j) {
         const Candidate& other = candidates_[as_index(j)];
         changes(j, changes.cols() - 1) =
-            other.push.dot(answers.back().col(j)) + finger_sinking(other, one);
+            other.push.dot(answers.back().col(j)) + finger_surface_displacement(other, one);
       }
       if (changes(i, changes.cols() - 1) <= 0.0)
         return "the finger presses nodes that cannot move; move the finger, or raise "

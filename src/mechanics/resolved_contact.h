@@ -31,9 +31,9 @@ struct PressedNode {
   double own = 0.0;             // 1/m: a half-space sinks by own / (pi E') per newton on this node
 };
 
-class SkinNodes {
+class SurfaceNodes {
  public:
-  explicit SkinNodes(const geometry::SmoothSurface& surface);
+  explicit SurfaceNodes(const geometry::SmoothSurface& surface);
 
   // The node under a sphere (`sphere` is left at 0); nothing if none of its triangles faces it.
   [[nodiscard]] std::optional<PressedNode> facing(int vertex, const Ball& ball) const;
@@ -53,7 +53,7 @@ class SkinNodes {
 
 // A node that a sphere may push.
 struct PushedNode {
-  PressedNode skin;
+  PressedNode outer_surface;
   Vec3 push = Vec3::Zero();  // unit, direction of the force on the node
   double left = 0.0;         // m, gap with contact forces
   double force = 0.0;        // N
@@ -88,8 +88,8 @@ class ResolvedContact {
   // The part must outlive this.
   explicit ResolvedContact(const MovingPart& part);
 
-  // As SkinContacts::find(). `displacement` (m) is that at the end of the step without the contact
-  // forces, `influence` the response to them. Gives one contact per sphere that presses.
+  // As SurfaceContacts::find(). `displacement` (m) is that at the end of the step without the
+  // contact forces, `influence` the response to them. Gives one contact per sphere that presses.
   [[nodiscard]] std::optional<std::string> find(const Vec3& finger,
                                                 const integrate::Vector& displacement,
                                                 Influence& influence, Touch& touch);
@@ -109,13 +109,14 @@ class ResolvedContact {
   [[nodiscard]] std::optional<std::string> press(Influence& influence);
   [[nodiscard]] std::optional<std::string> solve(Influence& influence);
   [[nodiscard]] Eigen::Matrix3Xd answer(Influence& influence, const Candidate& loaded) const;
-  [[nodiscard]] double finger_sinking(const Candidate& at, const Candidate& pressed) const;
+  [[nodiscard]] double finger_surface_displacement(const Candidate& at,
+                                                   const Candidate& pressed) const;
   [[nodiscard]] bool sphere_normals() const;
 
   const MovingPart* part_;
   const scene::Scene* scene_;
   const geometry::SmoothSurface* surface_;
-  SkinNodes skin_;
+  SurfaceNodes outer_surface_;
   NodalTouches touches_;
   double finger_compliance_ = 0.0;  // 1/Pa, lambda_1
   std::vector<Ball> balls_;

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "contact/friction.h"
-#include "mechanics/body_sinking.h"
+#include "mechanics/body_surface_displacement.h"
 #include "mechanics/contacts.h"
 
 namespace palpate::mechanics {
 namespace {
 
 // The error that is stated after the correction s + e: half of e, and more where e is not small.
-// Measured on the bodies of docs/accuracy.md.                   docs/theory.md [sinking]
+// Measured on the bodies of docs/accuracy.md.                docs/theory.md [compliance]
 constexpr double stated_share = 0.5;
 
 // What a mesh leaves open even where e is zero: the curvature read from its surface, the quadrature
@@ -21,7 +21,7 @@ constexpr double stated_least = 1e-3;
 
 // A group of spheres that represents one shears like it, under the friction of all, which is shared
 // like their normal forces.
-void find_shear(const scene::Scene& scene, const Touch& touch, BodySinking& beyond,
+void find_shear(const scene::Scene& scene, const Touch& touch, BodySurfaceDisplacement& beyond,
                 SphereContact& contact) {
   contact::Patch patch = contact.patch;
   double share = 1.0;
@@ -71,8 +71,9 @@ double peak_pressure(const SphereContact& contact) {
 double mesh_error(const SphereContact& contact) {
   const double stiffness = contact.law.point.stiffness(contact.depth);
   const double share = stiffness / (1.0 + std::max(0.0, contact.compliance * stiffness));
-  const double estimated = contact.sinking_error * share;
-  return stated_least + estimated * (stated_share + estimated) + contact.sinking_doubt * share;
+  const double estimated = contact.surface_displacement_error * share;
+  return stated_least + estimated * (stated_share + estimated) +
+         contact.surface_displacement_doubt * share;
 }
 
 const SphereContact* Touch::deepest() const {
@@ -102,7 +103,8 @@ double Touch::pressed() const {
   return sum;
 }
 
-void rub(const scene::Scene& scene, const Vec3& move, Touch& touch, BodySinking* beyond) {
+void rub(const scene::Scene& scene, const Vec3& move, Touch& touch,
+         BodySurfaceDisplacement* beyond) {
   const double friction = scene.scenario.contact.friction;
   const bool at_once = scene.scenario.contact.slip == scenario::Contact::Slip::coulomb;
   for (SphereContact& contact : touch.contacts) {

@@ -183,14 +183,14 @@ TrueBoundary::TrueBoundary(const geometry::TetMesh& start, std::optional<geometr
       lumps_(lumps.begin(), lumps.end()),
       levels_(levels.begin(), levels.end()),
       nodes_(start.nodes),
-      skin_(geometry::skin(start).surface),
-      on_skin_(start.nodes.size()) {
+      outer_surface_(geometry::outer_surface(start).surface),
+      on_surface_(start.nodes.size()) {
   if (shape_) axis_ = geometry::axis_of(*shape_);
   if (shape_) length_ = geometry::extent(*shape_)[axis_];
   if (shape_ && std::holds_alternative<geometry::Cuboid>(*shape_)) shape_.reset();
-  const std::vector<int> outer = geometry::skin(start).nodes;
+  const std::vector<int> outer = geometry::outer_surface(start).nodes;
   for (std::size_t v = 0; v < outer.size(); ++v)
-    on_skin_[as_index(outer[v])] = {{static_cast<int>(v), -1, -1}, Vec3::UnitX()};
+    on_surface_[as_index(outer[v])] = {{static_cast<int>(v), -1, -1}, Vec3::UnitX()};
 }
 
 // Whether all boundary faces at the edge lie in a flat end of the shape.
@@ -207,21 +207,21 @@ bool TrueBoundary::on_end(const Bisection::Middle& edge) const {
 }
 
 Vec3 TrueBoundary::place(const Bisection::Middle& edge) {
-  OnSkin here;
+  OnSurface here;
   if (!edge.outer.empty())
-    here = between(on_skin_[as_index(edge.a)], on_skin_[as_index(edge.b)], edge.share);
+    here = between(on_surface_[as_index(edge.a)], on_surface_[as_index(edge.b)], edge.share);
   Vec3 at = smooth_place(edge, here);
   const double close = 1e-9 * (nodes_[as_index(edge.a)] - nodes_[as_index(edge.b)]).norm();
   for (const double level : levels_)
     if (std::abs(nodes_[as_index(edge.a)].z() - level) <= close &&
         std::abs(nodes_[as_index(edge.b)].z() - level) <= close)
       at.z() = level;
-  on_skin_.push_back(here);
+  on_surface_.push_back(here);
   nodes_.push_back(at);
   return at;
 }
 
-Vec3 TrueBoundary::smooth_place(const Bisection::Middle& edge, const OnSkin& here) const {
+Vec3 TrueBoundary::smooth_place(const Bisection::Middle& edge, const OnSurface& here) const {
   const bool outer = !edge.outer.empty();
   if (edge.inner && !outer)
     for (const geometry::Lump& lump : lumps_) {
@@ -237,8 +237,9 @@ Vec3 TrueBoundary::smooth_place(const Bisection::Middle& edge, const OnSkin& her
   return edge.between;
 }
 
-TrueBoundary::OnSkin TrueBoundary::between(const OnSkin& a, const OnSkin& b, double share) const {
-  OnSkin sum;
+TrueBoundary::OnSurface TrueBoundary::between(const OnSurface& a, const OnSurface& b,
+                                              double share) const {
+  OnSurface sum;
   std::size_t count = 0;
   for (const auto& [part, weight] : {std::pair{&a, 1.0 - share}, std::pair{&b, share}})
     for (std::size_t k = 0; k < 3; ++k) {
@@ -255,14 +256,14 @@ TrueBoundary::OnSkin TrueBoundary::between(const OnSkin& a, const OnSkin& b, dou
 }
 
 // On a crease both sides displace the point from its place on the flat triangles.
-std::optional<Vec3> TrueBoundary::position(const OnSkin& at) const {
+std::optional<Vec3> TrueBoundary::position(const OnSurface& at) const {
   if (at.vertices[0] < 0) return std::nullopt;
   Vec3 sum = Vec3::Zero();
   Vec3 flat = Vec3::Zero();
   int sides = 0;
   bool creased = false;
-  for (const int triangle : skin_.neighbours().triangles_at(at.vertices[0])) {
-    const auto& corners = skin_.surface().triangles[as_index(triangle)];
+  for (const int triangle : outer_surface_.neighbours().triangles_at(at.vertices[0])) {
+    const auto& corners = outer_surface_.surface().triangles[as_index(triangle)];
     geometry::SurfacePoint point{.triangle = triangle, .weights = Vec3::Zero()};
     bool within = true;
     std::size_t missing = 3;
@@ -278,10 +279,10 @@ std::optional<Vec3> TrueBoundary::position(const OnSkin& at) const {
       within = within &&
                (vertex < 0 || std::find(corners.begin(), corners.end(), vertex) != corners.end());
     if (!within) continue;
-    if (at.vertices[1] >= 0 && missing < 3 && skin_.crease(triangle, (missing + 1) % 3))
+    if (at.vertices[1] >= 0 && missing < 3 && outer_surface_.crease(triangle, (missing + 1) % 3))
       creased = true;
-    flat = skin_.flat_position(point);
-    sum += skin_.position(point) - flat;
+    flat = outer_surface_.flat_position(point);
+    sum += outer_surface_.position(point) - flat;
     ++sides;
   }
   if (sides == 0) return std::nullopt;
@@ -329,7 +330,7 @@ constexpr double near_part_on_skin = 0.5;  // needs no new nodes where nodes are
 constexpr double least_volume_left = 0.2;  // of a tetrahedron, that moving a node leaves
 
 // How freely a node may move, and along which edges.
-enum class Freedom { everywhere, skin, crease, fixed };
+enum class Freedom { everywhere, outer_surface, crease, fixed };
 
 struct Borders {
   std::vector<Freedom> freedom;                 // per node
@@ -351,10 +352,10 @@ Borders borders_of(const geometry::TetMesh& mesh) {
   for (const auto& [edge, sides] : normals) {
     const bool crease =
         sides.size() != 2 || sides.front().dot(sides.back()) < geometry::crease_cosine;
-    borders.edges[edge] = crease ? Freedom::crease : Freedom::skin;
+    borders.edges[edge] = crease ? Freedom::crease : Freedom::outer_surface;
     for (const int node : edge) {
       Freedom& own = borders.freedom[as_index(node)];
-      own = std::max(own, crease ? Freedom::crease : Freedom::skin);
+      own = std::max(own, crease ? Freedom::crease : Freedom::outer_surface);
       if (crease && ++creases[as_index(node)] > 2) own = Freedom::fixed;
     }
   }
@@ -394,7 +395,7 @@ void snap(geometry::TetMesh& mesh, double z, bool outer_only,
       // On the boundary a node moves along its surface, on a crease along that crease.
       if (!(share > 0.0 && share < move.share) || own == Freedom::fixed || along < own) continue;
       move = {share, start + share * way, true};
-      if (shape && own == Freedom::skin) {
+      if (shape && own == Freedom::outer_surface) {
         // A node in a flat end stays there.
         const Vec3 round = geometry::onto(*shape, move.to);
         if ((round - move.to).norm() < 0.1 * way.norm()) move.to = round;

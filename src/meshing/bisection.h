@@ -88,23 +88,23 @@ class TrueBoundary {
 
  private:
   // A node's position on the smooth surface: corners of one of its triangles with their weights.
-  struct OnSkin {
+  struct OnSurface {
     std::array<int, 3> vertices{-1, -1, -1};
     Vec3 weights = Vec3::Zero();
   };
-  [[nodiscard]] OnSkin between(const OnSkin& a, const OnSkin& b, double share) const;
-  [[nodiscard]] Vec3 smooth_place(const Bisection::Middle& edge, const OnSkin& here) const;
-  [[nodiscard]] std::optional<Vec3> position(const OnSkin& at) const;
+  [[nodiscard]] OnSurface between(const OnSurface& a, const OnSurface& b, double share) const;
+  [[nodiscard]] Vec3 smooth_place(const Bisection::Middle& edge, const OnSurface& here) const;
+  [[nodiscard]] std::optional<Vec3> position(const OnSurface& at) const;
   [[nodiscard]] bool on_end(const Bisection::Middle& edge) const;
 
   std::optional<geometry::Shape> shape_;
   std::vector<geometry::Lump> lumps_;
   std::vector<double> levels_;
   std::vector<Vec3> nodes_;  // m, as far as they are known here
-  geometry::SmoothSurface skin_;
-  std::vector<OnSkin> on_skin_;  // per node
-  double length_ = 0.0;          // m, of the shape along y
-  int axis_ = 1;                 // normal to its flat ends
+  geometry::SmoothSurface outer_surface_;
+  std::vector<OnSurface> on_surface_;  // per node
+  double length_ = 0.0;                // m, of the shape along y
+  int axis_ = 1;                       // normal to its flat ends
 };
 
 // The mesh with no edge across the plane at height z (m), or no edge of its boundary. A node that

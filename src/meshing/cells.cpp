@@ -108,11 +108,11 @@ NamedMesh tetrahedra_of(const Cells& cells, const std::string& path, double metr
     made.mesh.regions = std::move(regions);
   made.names = cells.names;
   if (cut > 0)
-    made.remark = std::to_string(cut) + " hexahedra, prisms and pyramids of " + path +
-                  " were cut into tetrahedra";
+    made.warning = std::to_string(cut) + " hexahedra, prisms and pyramids of " + path +
+                   " were cut into tetrahedra";
   if (cells.curved)
-    made.remark += (made.remark.empty() ? "" : "; ") + std::string("of the cells of ") + path +
-                   " only the corners are used, so that their sides are straight";
+    made.warning += (made.warning.empty() ? "" : "; ") + std::string("of the cells of ") + path +
+                    " only the corners are used, so that their sides are straight";
   return made;
 }
 

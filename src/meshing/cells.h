@@ -33,13 +33,13 @@ struct Cells {
 struct NamedMesh {
   geometry::TetMesh mesh;
   std::map<std::string, int> names = {};
-  std::string remark = {};
+  std::string warning = {};
 };
 
 // The tetrahedra in all solids, which match across faces: every quadrangle is cut from its node
 // with the lowest number (Dompierre et al. 1999). Only nodes of tetrahedra are kept, in the order
 // of the file; `regions` is empty if all are 0. Tetrahedra that are inside out are turned round,
-// those of degenerate cells with a repeated node are left out. Coordinates are multiplied by
+// those of degenerate cells with a repeated node are excluded. Coordinates are multiplied by
 // `metres_per_unit`. Throws InputError for `path` if there are no solids.
 [[nodiscard]] NamedMesh tetrahedra_of(const Cells& cells, const std::string& path,
                                       double metres_per_unit);

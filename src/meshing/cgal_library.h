@@ -28,7 +28,7 @@ namespace palpate::meshing::cgal_library {
 // Collapses the shortest edge until none is shorter than about 0.7 of the `spacing` of its ends (m,
 // of each vertex). Each new vertex preserves the volume and is near the planes around it, so that
 // it stays on creases and in corners (Lindstrom & Turk 1998). A collapse that turns a triangle by
-// more than 60 degrees or makes a needle is left out.
+// more than 60 degrees or makes a needle is excluded.
 [[nodiscard]] geometry::Surface collapsed(const geometry::Surface& surface,
                                           std::span<const double> spacing);
 

@@ -166,7 +166,7 @@ class GmshReader {
     lines_.fail("section `" + section + "` has no `" + end + "`" + save_again);
   }
 
-  // `3 7 "skin"`: the dimension, the tag and the name of a group.
+  // `3 7 "surface"`: the dimension, the tag and the name of a group.
   void read_names() {
     const int total = text_count("the number of names");
     const bool before = std::exchange(binary_, false);

@@ -93,10 +93,10 @@ class Checker {
   }
 
   void boundary() const {
-    const geometry::Skin skin = geometry::skin(mesh_);
-    if (const auto refused = geometry::joints(skin.surface).refused)
+    const geometry::OuterSurface outer_surface = geometry::outer_surface(mesh_);
+    if (const auto refused = geometry::joints(outer_surface.surface).refused)
       fail("parts of its boundary touch at node " +
-           std::to_string(skin.nodes[as_index(refused->from)]) +
+           std::to_string(outer_surface.nodes[as_index(refused->from)]) +
            "; join the parts that only touch there, or separate them");
   }
 

@@ -266,9 +266,9 @@ NamedMesh as_in_file(const std::string& path, double metres_per_unit) {
 NamedMesh read_mesh(const std::string& path, double metres_per_unit) {
   NamedMesh read = as_in_file(path, metres_per_unit);
   if (const int parted = part_touching(read.mesh); parted > 0)
-    read.remark += (read.remark.empty() ? "" : "; ") + std::to_string(parted) +
-                   (parted == 1 ? " node" : " nodes") + " of " + path +
-                   " at which its parts only touch were parted";
+    read.warning += (read.warning.empty() ? "" : "; ") + std::to_string(parted) +
+                    (parted == 1 ? " node" : " nodes") + " of " + path +
+                    " at which its parts only touch were parted";
   return read;
 }
 

@@ -233,7 +233,7 @@ namespace {
 using cgal_library::Mending;
 
 constexpr double most_missing = 0.02;  // of the area, that holes or crossing triangles may have
-constexpr double speck = 1e-3;         // of the volume, below which a part is left out
+constexpr double speck = 1e-3;         // of the volume, below which a part is excluded
 constexpr ChildLimits mending_limits{120.0, 8.0 * 1024 * 1024 * 1024};  // s, bytes
 
 // Vertices within a millionth of the size become one: the rounding of files in single precision.
@@ -428,7 +428,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
     text +=
         std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;
   if (!others.empty()) text += ", without " + others;
-  if (specks > 0) text += ", and " + many(specks, "speck") + " left out";
+  if (specks > 0) text += ", and " + many(specks, "speck") + " excluded";
   return text;
 }
 
@@ -484,9 +484,9 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
     throw MeshError(fault + (error.what() == fault ? "" : " (it could not be repaired by itself)"));
   }
   const std::string changed = changes(made, joined);
-  whole.remark = "the surface of " + name + " was mended: " +
-                 (changed.empty() && taken.empty() ? "all triangles turned outwards" : changed) +
-                 (changed.empty() || taken.empty() ? "" : "; ") + taken;
+  whole.warning = "the surface of " + name + " was mended: " +
+                  (changed.empty() && taken.empty() ? "all triangles turned outwards" : changed) +
+                  (changed.empty() || taken.empty() ? "" : "; ") + taken;
   return whole;
 }
 

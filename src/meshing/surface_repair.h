@@ -23,7 +23,7 @@ void check_closed(const geometry::Surface& surface, const std::string& name);
 
 struct WholeSurface {
   geometry::Surface surface;  // has passed check_closed()
-  std::string remark;         // what was changed, with places and sizes; empty if nothing was
+  std::string warning;        // what was changed, with places and sizes; empty if nothing was
 };
 
 // What is asked of a surface from a file.

@@ -211,7 +211,7 @@ class Search {
     // The time limit decides only whether there is a result, not which.
     const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
     if (spent >= time_limit_)
-      throw MeshError("no mesh as fine as asked for was found within " + rounded_text(time_limit_) +
+      throw MeshError("no mesh as fine as wanted was found within " + rounded_text(time_limit_) +
                       " s; ask for fewer nodes or allow more time");
     const geometry::Surface facets = geometry::facets(body);
     const std::size_t most = most_nodes(body, facets, largest);
@@ -419,7 +419,7 @@ std::string told(const geometry::Surface& before, std::size_t needles, const Rem
                      " triangles of the surface became " +
                      std::to_string(after.surface.triangles.size()) + " for the mesh";
   if (needles > 0) text += ", because " + std::to_string(needles) + " of them are needles";
-  return text + (needles > 0 ? "; " : ", because they are finer than the mesh asked for; ") +
+  return text + (needles > 0 ? "; " : ", because they are finer than the mesh wanted; ") +
          "the two surfaces are at most " + rounded_text(unit::mm.from_si(after.distance), 2) +
          " mm apart";
 }
@@ -442,7 +442,7 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
     auto better =
         remeshed(surface, target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length);
     if (!better) return false;
-    made.remark = told(surface, needles, *better);
+    made.warning = told(surface, needles, *better);
     surface = std::move(better->surface);
     return true;
   };
@@ -467,9 +467,9 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
   made.mesh = meshed({.edge_length = spacing_of(surface)});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);
-  made.remark += (made.remark.empty() ? "" : "; ") + std::string("the mesh has ") +
-                 std::to_string(made.mesh.nodes.size()) + " nodes instead of " +
-                 std::to_string(target.nodes) + ", because it keeps the surface's vertices";
+  made.warning += (made.warning.empty() ? "" : "; ") + std::string("the mesh has ") +
+                  std::to_string(made.mesh.nodes.size()) + " nodes instead of " +
+                  std::to_string(target.nodes) + ", because it keeps the surface's vertices";
   return made;
 }
 

@@ -42,7 +42,7 @@ struct TooFewNodes : MeshError {
 
 struct FileMesh {
   geometry::TetMesh mesh;
-  std::string remark;  // a sentence on a changed surface or number of nodes; or empty
+  std::string warning;  // a sentence on a changed surface or number of nodes; or empty
 };
 
 // Meshes the body inside a surface that has passed check_closed(), with inclusions inside. A

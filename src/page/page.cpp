@@ -30,8 +30,8 @@ input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .kind { color: var(--soft); margin: 0; }
 .big { font-size: clamp(1.4rem, 5.5vw, 2rem); font-weight: 600; line-height: 1.2; }
 .big span { font-size: .65em; font-weight: 400; }
-.answer { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
-  font-size: 1.08rem; } .answer p { margin: .35rem 0; }
+.result { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
+  font-size: 1.08rem; } .result p { margin: .35rem 0; }
 nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
 figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
@@ -55,7 +55,7 @@ summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; bor
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
 .cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
-.whole .words { min-width: 0; white-space: normal; } .answer td { white-space: nowrap; } .whole table { width: 100%; }
+.whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide tr, .wide th, .wide td { display: block; } .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
   .wide th, .wide td { border: 0; padding: .1rem 0; text-align: left; } .wide .words { min-width: 0; }
@@ -149,7 +149,7 @@ std::string Page::html() const {
   Markup top = element("p", "palpate: " + kind_, {{"class", "kind"}}) + element("h1", title_);
   if (!answer_.empty())
     top += element("div", answer_,
-                   {{"class", "answer"}, {"role", "region"}, {"aria-label", "The answer"}});
+                   {{"class", "result"}, {"role", "region"}, {"aria-label", "The result"}});
   Markup body = element("a", "To the results", {{"class", "skip"}, {"href", "#results"}}) + line() +
                 element("header", top) + line() +
                 element("nav", element("ul", contents_), {{"aria-label", "Contents"}}) + line() +
@@ -231,7 +231,7 @@ Markup making(const Making& made, const std::vector<HashedFile>& inputs,
       "p", text("This repeats the result in this folder, with the same bytes on "
                 "every x86-64 processor, by the same build of palpate " PALPATE_VERSION ":"));
   all += element("pre", element("code", made.command), {{"tabindex", "0"}});
-  if (!made.remark.empty()) all += paragraphs({made.remark});
+  if (!made.warning.empty()) all += paragraphs({made.warning});
   record::Table hashes{{"file", "SHA-256"}, {}};
   for (const HashedFile& file : inputs) hashes.rows.push_back({file.path, file.sha256});
   if (!hashes.rows.empty()) all += table("What went in", hashes);
@@ -277,7 +277,7 @@ std::string between(const std::string& html, std::string_view from, std::string_
 
 Summary summary_of(const std::string& html) {
   Summary summary{.title = between(html, "<title>", "</title>"),
-                  .answer = between(html, "aria-label=\"The answer\">", "</p>")};
+                  .answer = between(html, "aria-label=\"The result\">", "</p>")};
   const std::string picture = "picture: <a href=\"", paper = "id=\"beside-the-paper\"";
   for (std::size_t at = html.find(picture); at != std::string::npos;
        at = html.find(picture, at + 1)) {

@@ -2,6 +2,7 @@
 // read in light and dark, on a phone, by keyboard and by a screen reader; it loads nothing.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -72,13 +73,16 @@ struct ShownFigure {
 // How the result was made and how to repeat it: program, command, and the SHA-256 of the files.
 struct Making {
   std::string command = {};  // that repeats the result, run in its folder
-  std::string remark = {};   // a sentence; may be empty
+  std::string warning = {};  // a sentence; may be empty
 };
 [[nodiscard]] Markup making(const Making& made, const std::vector<HashedFile>& inputs,
                             const WholeFolder& folder);
 
 // A long text, folded up.
 [[nodiscard]] Markup folded(const std::string& summary, const std::string& content);
+
+// What a row beside a paper's text says.
+inline constexpr std::array verdicts{"agrees", "differs", "the text does not say"};
 
 // Parts of a page that write() made, as plain text; empty where there is none.
 struct Summary {

@@ -53,7 +53,7 @@ std::string remedy(const ChildResult& result, const std::string& script) {
   return "; run `gnuplot " + script + "` there to see why";
 }
 
-// The first file that the script reads and that is missing; gnuplot would leave out its curves.
+// The first file that the script reads and that is missing; gnuplot would omit its curves.
 std::optional<std::string> missing_file(const Sheet& sheet, const fs::path& folder) {
   for (const std::string& file : sheet.reads)
     if (!fs::exists(folder / file)) return file;

@@ -100,9 +100,13 @@ std::string gnuplot_logarithmic(const std::string& axis, double low, double high
     for (int digit = 1; digit < 10; ++digit) {
       const double value =
           power < 0 ? digit / std::pow(10.0, -power) : digit * std::pow(10.0, power);
-      const bool labelled = digit == 1   ? power % apart == 0
-                            : digit == 2 ? decades < 2.4
-                            : digit == 5 ? decades < 2.4
+      // At least five labels wherever there is room for them.
+      const bool labelled = digit == 1                 ? power % apart == 0
+                            : digit == 2 || digit == 5 ? decades < 2.6
+                            : digit == 3
+                                ? decades < 1.7 || (decades >= 2.6 && decades < 5.0 && axis != "x")
+                            : digit == 7 ? decades < 1.7
+                            : digit == 4 ? decades < 0.9
                                          : decades < 0.5;
       if (labelled || apart == 1) add(value, tick_text(value, 5, 1e4), labelled);
     }

@@ -45,11 +45,11 @@ struct ScenePicture {
 // Each member is one or more whole sentences for a reader who knows neither the program nor the
 // theory. All are empty before the case has been judged.
 struct Answer {
-  std::string model;     // which model, and why: "Chosen: layer, ... hertz would be 14 % low: ..."
-  std::string error;     // the largest force (or strain) if the case has run, with its stated error
-  std::string left_out;  // which effects are left out, what each would change, and its remedy
-  std::string verdict;   // of a live run: whether measured force and model agree
-  bool complete = true;  // whether nothing worth a remark is left out
+  std::string model;  // which model, and why: "Chosen: layer, ... hertz would be 14 % low: ..."
+  std::string error;  // the largest force (or strain) if the case has run, with its stated error
+  std::string neglected;  // which effects are neglected, what each would change, and its remedy
+  std::string verdict;    // of a live run: whether measured force and model agree
+  bool complete = true;   // whether nothing that needs a warning is neglected
   std::optional<double> stated_error;  // relative, of the force or strain; empty if not estimated
 };
 
@@ -119,10 +119,10 @@ struct CaseRecord {
   std::vector<TissueFrame> frames;
   ScenePicture picture;  // without faces if no picture is requested
   std::vector<Finding> findings;
-  std::vector<std::string> remarks;  // sentences on the validity of the result
-  Answer answer;                     // of a case that has ended
-  std::string chosen;                // values chosen for `auto`: `key = word`, comma-separated
-  double seconds = 0.0;              // run time, for run.json only
+  std::vector<std::string> warnings;  // sentences on the validity of the result
+  Answer answer;                      // of a case that has ended
+  std::string chosen;                 // values chosen for `auto`: `key = word`, comma-separated
+  double seconds = 0.0;               // run time, for run.json only
   std::vector<std::pair<std::string, std::string>> attached;  // files of a live run: name, content
   // When the first row after the start had been computed; nothing before.
   std::optional<std::chrono::steady_clock::time_point> first_row;

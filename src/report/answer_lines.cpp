@@ -116,17 +116,17 @@ std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& rec
   if (records.empty()) return {};
   if (records.size() == 1) {
     const record::Answer& answer = records.front().answer;
-    if (answer.left_out.empty()) return {answer.model, answer.error};  // no model ran
-    return {answer.model, answer.error, answer.left_out};
+    if (answer.neglected.empty()) return {answer.model, answer.error};  // no model ran
+    return {answer.model, answer.error, answer.neglected};
   }
   std::vector<std::string> lines{models(records), peaks(records)};
-  std::vector<NamedSentence> left_out;
+  std::vector<NamedSentence> neglected;
   for (const record::CaseRecord& record : records)
-    if (!record.answer.complete) left_out.push_back({record.name, record.answer.left_out});
-  if (left_out.empty())
-    lines.push_back(records.front().answer.left_out);
+    if (!record.answer.complete) neglected.push_back({record.name, record.answer.neglected});
+  if (neglected.empty())
+    lines.push_back(records.front().answer.neglected);
   else
-    for (std::string& line : said_once(left_out)) lines.push_back(std::move(line));
+    for (std::string& line : said_once(neglected)) lines.push_back(std::move(line));
   return lines;
 }
 

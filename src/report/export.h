@@ -28,7 +28,7 @@ struct ExportCurve {
 };
 
 // The curves of a result's table, one per case in the order of their first rows. A table without
-// the column `case` is one curve with the name `fallback`. Columns that contain words are left out.
+// the column `case` is one curve with the name `fallback`. Columns that contain words are excluded.
 [[nodiscard]] std::vector<ExportCurve> export_curves(const record::Table& table,
                                                      const std::string& fallback);
 

@@ -92,9 +92,9 @@ plot::Figure figure_force_slide(std::vector<plot::Series> series) {
           .series = completed(std::move(series), {"force_indentation.csv", "slide_mm", "force_N"})};
 }
 
-plot::Figure figure_travel_slide(std::vector<plot::Series> series) {
+plot::Figure figure_displacement_slide(std::vector<plot::Series> series) {
   return {
-      .name = "figure_travel_slide",
+      .name = "figure_displacement_slide",
       .title = "Displacement along the slide at the same force",
       .x_label = "Slide (mm)",
       .y_label = "Displacement (mm)",
@@ -300,7 +300,7 @@ void add_fits(plot::Figure& figure, const std::vector<fit::NamedFit>& fits,
               const std::string& also = {}) {
   for (plot::Series& series : figure.series)
     for (const fit::NamedFit& named : fits) {
-      // The fit of a scaled curve has another name and is left out: the figure scales this fit.
+      // The fit of a scaled curve has another name and is excluded: the figure scales this fit.
       if (named.case_name != series.case_name || (model && named.fit.model != *model) ||
           (named.curve != curve && (also.empty() || named.curve != also)))
         continue;
@@ -481,7 +481,7 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
     const auto& step = std::get<scenario::Slide>(family.base.steps[as_index(slide) - 1]);
     const bool keeps_force = step.keep == scenario::Slide::Keep::force;
     plot::Figure along =
-        with_cases(keeps_force ? figure_travel_slide : figure_force_slide, family, records);
+        with_cases(keeps_force ? figure_displacement_slide : figure_force_slide, family, records);
     for (plot::Series& series : along.series) series.step = slide;
     if (!keeps_force) choose_axis(along, forces, two_decades);
     figures.push_back(along);

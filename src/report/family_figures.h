@@ -29,7 +29,7 @@ namespace palpate::report {
 [[nodiscard]] plot::Figure figure_force_slide(std::vector<plot::Series> series);
 
 // Travel along a slide at constant force: force_indentation.csv, slide_mm, travel_mm.
-[[nodiscard]] plot::Figure figure_travel_slide(std::vector<plot::Series> series);
+[[nodiscard]] plot::Figure figure_displacement_slide(std::vector<plot::Series> series);
 
 // Strain against time (Figure 7 of the paper): strain_time.csv, time_s, strain.
 [[nodiscard]] plot::Figure figure_strain_time(std::vector<plot::Series> series);

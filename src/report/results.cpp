@@ -107,15 +107,15 @@ class Extras {
     const auto now = std::chrono::steady_clock::now();
     if (!until_ && StopScope::stopped()) until_ = now + std::chrono::milliseconds(100);
     if (until_ && now > *until_)
-      ++left_out_;
+      ++omitted_;
     else
       write();
   }
-  [[nodiscard]] std::size_t left_out() const { return left_out_; }
+  [[nodiscard]] std::size_t omitted() const { return omitted_; }
 
  private:
   std::optional<std::chrono::steady_clock::time_point> until_;
-  std::size_t left_out_ = 0;
+  std::size_t omitted_ = 0;
 };
 
 // Files with a few rows per case.
@@ -284,8 +284,8 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
       });
   write_tissue(*family_, records, folder_, extras);
   write_pictures(*family_, records, folder_, extras);
-  if (extras.left_out() > 0)
-    warnings.push_back(std::to_string(extras.left_out()) +
+  if (extras.omitted() > 0)
+    warnings.push_back(std::to_string(extras.omitted()) +
                        " of the pressure maps, meshes and pictures were not written; run the "
                        "scenario again");
 
@@ -315,7 +315,7 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
                                   : CaseEntry::State::failed,
                               record.reason,
                               {{"run", record.seconds}}});
-  manifest.complete = records.size() == family_->cases.size() && extras.left_out() == 0;
+  manifest.complete = records.size() == family_->cases.size() && extras.omitted() == 0;
   folder_.write("run.json", manifest_text(manifest));
 
   using State = WholeFolder::State;

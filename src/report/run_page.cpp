@@ -177,7 +177,7 @@ struct Rows {
   }
 };
 
-std::string agrees(bool yes) { return yes ? "agrees" : "differs"; }
+std::string agrees(bool yes) { return page::verdicts[yes ? 0 : 1]; }
 
 // Eq. (2) with Table 1, for the row of the largest force: the row's own indentation, and the radius
 // with the curvature of the surface there.
@@ -232,6 +232,11 @@ void add_order(Rows& rows, const Records& records) {
            "the order of the moduli of Table 1");
 }
 
+std::string range(double low, double high, int digits) {
+  const std::string from = rounded_text(low, digits), to = rounded_text(high, digits);
+  return from == to ? from : from + " to " + to;
+}
+
 void add_fit(Rows& rows, const std::vector<fit::NamedFit>& fits) {
   double least = INFINITY, most = -INFINITY, power_low = INFINITY, power_high = -INFINITY;
   for (const fit::NamedFit& named : fits) {
@@ -246,11 +251,10 @@ void add_fit(Rows& rows, const std::vector<fit::NamedFit>& fits) {
     }
   }
   if (!std::isfinite(least) || !std::isfinite(power_low)) return;
-  rows.add("The curves are drawn as F = a + b ln h",
-           "R² of " + rounded_text(least, 3) + " to " + rounded_text(most, 3), agrees(false),
+  rows.add("The curves are drawn as F = a + b ln h", "R² of " + range(least, most, 3),
+           agrees(false),
            "eq. (2) gives a convex h^(3/2); a logarithm is concave and starts below zero");
-  rows.add("Eq. (2): the exponent of h is 1.5",
-           rounded_text(power_low, 5) + " to " + rounded_text(power_high, 5),
+  rows.add("Eq. (2): the exponent of h is 1.5", range(power_low, power_high, 5),
            agrees(std::abs(power_low - 1.5) < 5e-3 && std::abs(power_high - 1.5) < 5e-3),
            "the power law fitted to the rows");
 }
@@ -334,8 +338,7 @@ page::Markup paper_section(const scenario::Family& family, const Records& record
     add_strains(rows, family, records);
   }
   if (rows.table.rows.empty()) return {};
-  rows.add("Numbers along the curves: none are printed", "in the CSV files",
-           "the text does not say",
+  rows.add("Numbers along the curves: none are printed", "in the CSV files", page::verdicts[2],
            "what can be compared are the statements and equations of the text");
   return element("div", page::table("The paper beside this run", rows.table), {{"class", "whole"}});
 }
@@ -436,12 +439,12 @@ Markup fits(const std::vector<fit::NamedFit>& fits) {
          page::table_of_file("Fits", table, "fits.csv", most);
 }
 
-Markup remarks(const Records& records) {
+Markup warnings(const Records& records) {
   Markup items;
   for (const record::CaseRecord& record : records)
-    for (const std::string& remark : record.remarks)
+    for (const std::string& warning : record.warnings)
       items += element(
-          "li", page::sentence((records.size() > 1 ? record.name + ": " : "") + remark + "."));
+          "li", page::sentence((records.size() > 1 ? record.name + ": " : "") + warning + "."));
   return items.empty() ? items : element("ul", items);
 }
 
@@ -473,19 +476,20 @@ std::string first_statement(const std::string& text) {
   return text.substr(0, std::min(text.find("; "), text.find(". ")));
 }
 
-// What is neglected, without remedies: `viscosity, which would add 36 % to the force while
-// pressing, and 2 other effects`.
+// The largest effect that is neglected, with its remedy, and how many more there are: `viscosity,
+// which would add 36 % to the force while pressing; add ... (and 2 other effects)`.
 std::string neglected(const record::Answer& answer) {
-  std::string text = first_statement(answer.left_out);
+  const std::string_view other = " Also neglected: ";
+  std::string text = answer.neglected.substr(0, answer.neglected.find(other));
   if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
   int others = 0;
-  const std::string_view other = " Also neglected: ";
-  for (std::size_t at = answer.left_out.find(other); at != std::string::npos;
-       at = answer.left_out.find(other, at + 1))
+  for (std::size_t at = answer.neglected.find(other); at != std::string::npos;
+       at = answer.neglected.find(other, at + 1))
     ++others;
   if (text.ends_with('.')) text.pop_back();
   if (others > 0)
-    text += ", and " + std::to_string(others) + (others == 1 ? " other effect" : " other effects");
+    text +=
+        " (and " + std::to_string(others) + (others == 1 ? " other effect)" : " other effects)");
   return text;
 }
 
@@ -511,7 +515,8 @@ record::Table case_table(const Records& records) {
   record::Table table{{"case", "largest value", "error", "model", "neglected"}, {}};
   for (const record::CaseRecord& record : records)
     table.rows.push_back({record.name, peak_words(record).second, peak_error(record),
-                          finding_word(record, "model"), neglected(record.answer)});
+                          finding_word(record, "model"),
+                          first_statement(neglected(record.answer))});
   return table;
 }
 
@@ -519,7 +524,7 @@ record::Table case_table(const Records& records) {
 void add_answer(page::Page& page, const Records& records) {
   if (records.size() == 1) {
     const record::Answer& answer = records.front().answer;
-    if (answer.left_out.empty()) return page.answer({answer.model, answer.error});  // no model ran
+    if (answer.neglected.empty()) return page.answer({answer.model, answer.error});  // no model ran
     const auto& [words, value] = peak_words(records.front());
     page.headline(words + value, peak_error(records.front()));
     page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
@@ -531,6 +536,8 @@ void add_answer(page::Page& page, const Records& records) {
     if (records.size() <= most_answers)
       page.answer(
           element("div", page::table("Every case", case_table(records)), {{"class", "whole"}}));
+    else
+      page.answer({first_statement(lines[0]), first_statement(lines[2])});
   }
 }
 
@@ -553,7 +560,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   constexpr auto folded = page::Page::Shown::folded;
   page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
                folded);
-  page.section("Warnings", remarks(records), folded);
+  page.section("Warnings", warnings(records), folded);
   page.section(
       "Findings",
       records.size() <= most_columns
@@ -571,9 +578,9 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   page.section(
       "How it was made",
       page::making({.command = "palpate run scenario.toml",
-                    .remark = live ? "A live run follows its device, so that this command repeats "
-                                     "the loading history and not the motion of the device."
-                                   : ""},
+                    .warning = live ? "A live run follows its device, so that this command repeats "
+                                      "the loading history and not the motion of the device."
+                                    : ""},
                    inputs, folder),
       folded);
   page::write(std::move(page), folder);

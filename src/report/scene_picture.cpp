@@ -26,7 +26,7 @@ using Colour = std::array<double, 3>;  // red, green, blue, 0 to 255
 
 constexpr double width = 800.0, height = 640.0;  // px, of the page
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-constexpr double margin = 60.0, head = 100.0, foot = 90.0;
+constexpr double margin = 60.0, head = 100.0, closest_point = 90.0;
 
 // Colours by region: those of skin, muscle and bone, then others.
 constexpr std::array<Colour, 6> palette{{{236, 188, 160},
@@ -111,9 +111,9 @@ View fitting(const ScenePicture& picture, const SceneFrame& frame) {
   Vec3 at = picture.touch;
   for (const Vec3& slide : picture.slides) take(at += slide, 0.0);
   view.scale = std::min((width - 2.0 * margin) / (most_right - left),
-                        (height - head - foot) / (top - bottom));
+                        (height - head - closest_point) / (top - bottom));
   view.left = 0.5 * (left + most_right - width / view.scale);
-  view.top = 0.5 * (top + bottom + (height + head - foot) / view.scale);
+  view.top = 0.5 * (top + bottom + (height + head - closest_point) / view.scale);
   return view;
 }
 

@@ -13,7 +13,7 @@ namespace palpate::report {
 // Shear components are those of the tensor, half of the engineering shear strains.
 using Strain = std::array<double, 6>;
 
-// The mesh at one time. Empty spans are left out of the file.
+// The mesh at one time. Empty spans are not in the file.
 struct VtuFrame {
   const geometry::TetMesh& mesh;                  // undeformed
   double time = 0.0;                              // s

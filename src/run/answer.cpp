@@ -17,7 +17,7 @@ namespace {
 
 using scenario::Model;
 
-std::string word(Model model) { return scenario::rung(model).word; }
+std::string word(Model model) { return scenario::traits(model).word; }
 
 const char* plain_word(Model model) {
   switch (model) {
@@ -35,25 +35,25 @@ class Words {
   Words(const scene::Scene& scene, std::optional<double> mesh_error)
       : scene_(scene),
         mesh_error_(mesh_error),
-        rung_(scenario::rung(scene.scenario.solver.model)),
+        traits_(scenario::traits(scene.scenario.solver.model)),
         e_(scene.choice.expected) {}
 
   [[nodiscard]] std::string model() const {
     std::string text = (scene_.choice.given ? "Prescribed by the scenario: " : "Chosen: ") +
-                       std::string(rung_.word) + ", " + plain_word(rung_.of);
+                       std::string(traits_.word) + ", " + plain_word(traits_.of);
     std::vector<std::string> with;
     if (!scene_.scenario.uniform() && !scene_.relaxation.elastic()) with.emplace_back("viscosity");
-    if (scene_.depth_ratio && !rung_.solid) with.emplace_back("large strains");
+    if (scene_.depth_ratio && !traits_.solid) with.emplace_back("large strains");
     if (!with.empty()) text += ", with " + joined(with, " and ");
     return text + ". " + why();
   }
 
   // The sentence's part on the error of the largest force, or of the strain.
   [[nodiscard]] std::string error(std::optional<double> error,
-                                  const std::vector<LeftOut>& left_out) const {
+                                  const std::vector<Neglected>& neglected) const {
     if (!error) return "an error that is not estimated";
     std::string uncounted;
-    for (const LeftOut& one : left_out)
+    for (const Neglected& one : neglected)
       if (!one.beside.empty()) uncounted += (uncounted.empty() ? "" : " and ") + one.beside;
     std::string text = "an error of " + error_text(*error) + " (tolerance " +
                        percent_text(scene_.scenario.solver.tolerance);
@@ -65,12 +65,12 @@ class Words {
     return text + (uncounted.empty() ? "" : ", not counting " + uncounted);
   }
 
-  [[nodiscard]] static std::string left_out(const std::vector<LeftOut>& all, double tolerance) {
+  [[nodiscard]] static std::string neglected(const std::vector<Neglected>& all, double tolerance) {
     if (all.empty())
       return "Neglected: nothing that would add more than " + percent_text(0.2 * tolerance) +
              " to this error.";
     std::string text;
-    for (const LeftOut& one : all)
+    for (const Neglected& one : all)
       text += (text.empty() ? "Neglected: " : " Also neglected: ") + one.what + ", " + one.when +
               (one.remedy.empty() ? "" : "; " + one.remedy) + ".";
     return text;
@@ -90,30 +90,31 @@ class Words {
       return "With `contact.coupling = \"one_way\"` the mesh gives the shape; the force is that of "
              "hertz, whatever the size of the body.";
     if (choice.given) {
-      if (choice.rungs.empty()) return "No other was considered.";
+      if (choice.forecasts.empty()) return "No other was considered.";
       const scene::Forecast& other = choice.otherwise;
       const auto deep = [](bool used) { return used ? " with large strains" : ""; };
-      if (other.model == rung_.of &&
+      if (other.model == traits_.of &&
           choice.otherwise_found.depth_matters == scene_.depth_ratio.has_value())
         return "It would be chosen anyway.";
-      const std::string reason = rung_.formula() ? " " + against(rung_.of, " is ") : "";
+      const std::string reason = traits_.formula() ? " " + against(traits_.of, " is ") : "";
       return "Without `solver.model` it would be " + word(other.model) +
-             (other.model == rung_.of ? deep(choice.otherwise_found.depth_matters) : "") + ", " +
+             (other.model == traits_.of ? deep(choice.otherwise_found.depth_matters) : "") + ", " +
              error_text(other.known(mesh_error_)) + " from the true force." + reason;
     }
     if (uniform) {
       const auto* springs = choice.forecast(Model::mass_spring);
-      if (rung_.of == Model::mass_spring || springs == nullptr)
+      if (traits_.of == Model::mass_spring || springs == nullptr)
         return "Only a mesh can be loaded between plates.";
       return "mass_spring would be " + error_text(springs->error) +
              " off, because its springs do not have the tissue's Poisson's ratio.";
     }
-    if (choice.otherwise.model != rung_.of)
+    if (choice.otherwise.model != traits_.of)
       return "Another case of the sweep needs it; alone, this one would take " +
              word(choice.otherwise.model) + ".";
-    if (rung_.of == Model::hertz) return enough();
+    if (traits_.of == Model::hertz) return enough();
     std::string text = against(Model::hertz);
-    if (!rung_.formula() && std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape))
+    if (!traits_.formula() &&
+        std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape))
       if (const std::string layer = against(Model::layer); !layer.ends_with(tail(text)))
         text += " " + layer;
     return text;
@@ -134,17 +135,17 @@ class Words {
 
   // What a formula would do in this scene: "hertz would be 14 % low: ..."
   [[nodiscard]] std::string against(Model model, const std::string& verb = " would be ") const {
-    const auto& rungs = scene_.choice.rungs;
-    const auto found = std::find_if(rungs.begin(), rungs.end(),
-                                    [&](const auto& rung) { return rung.model == model; });
-    if (found == rungs.end()) return "";
+    const auto& forecasts = scene_.choice.forecasts;
+    const auto found = std::find_if(forecasts.begin(), forecasts.end(),
+                                    [&](const auto& traits) { return traits.model == model; });
+    if (found == forecasts.end()) return "";
     if (!found->cannot.empty()) return word(model) + " does not apply: " + found->cannot + ".";
     const bool thickness = model == Model::layer;  // is represented
     const std::string would = word(model) + verb;
     const std::string off = would + error_text(found->error) + " off";
     if (!std::isfinite(e_.thickness) && !thickness)
       return would + "far too low: the tissue is too thin for it.";
-    // The largest of what it leaves out.
+    // The largest of what it neglects.
     const double size = 1.0 / (1.0 + (thickness ? e_.sides : e_.size)) - 1.0;
     const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
     const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep) + e_.deep_error;
@@ -167,7 +168,7 @@ class Words {
 
   const scene::Scene& scene_;
   std::optional<double> mesh_error_;
-  const scenario::Rung& rung_;
+  const scenario::ModelTraits& traits_;
   const scene::Estimates& e_;
 };
 
@@ -216,14 +217,14 @@ Expected expect(const scene::Scene& scene) {
   Expected expected;
   expected.mesh_error = mesh_error(scene);
   const std::optional<double> error = stated_error(scene, expected.mesh_error);
-  expected.left_out = left_out(scene);
+  expected.neglected = neglected(scene);
   const Words words(scene, expected.mesh_error);
   expected.answer = {
       .model = words.model(),
-      .error = quantity(scene.scenario) + " has " + words.error(error, expected.left_out) + ".",
-      .left_out = Words::left_out(expected.left_out, scene.scenario.solver.tolerance),
+      .error = quantity(scene.scenario) + " has " + words.error(error, expected.neglected) + ".",
+      .neglected = Words::neglected(expected.neglected, scene.scenario.solver.tolerance),
       .verdict = {},
-      .complete = expected.left_out.empty(),
+      .complete = expected.neglected.empty(),
       .stated_error = error};
   return expected;
 }
@@ -234,14 +235,14 @@ record::Answer answer(const scene::Scene& scene, const record::CaseRecord& recor
   std::string result = peak(scene, record);
   std::optional<double> error;
   if (record.outcome == record::Outcome::completed) error = stated_error(scene, mesh_error);
-  const std::vector<LeftOut> effects = left_out(scene);
+  const std::vector<Neglected> effects = neglected(scene);
   if (record.outcome == record::Outcome::completed)
     result += ", with " + words.error(error, effects) + ".";
   else
     result += " up to where the run ended; no error is stated.";
   return {.model = words.model(),
           .error = result,
-          .left_out = Words::left_out(effects, scene.scenario.solver.tolerance),
+          .neglected = Words::neglected(effects, scene.scenario.solver.tolerance),
           .verdict = {},
           .complete = effects.empty(),
           .stated_error = error};
@@ -254,14 +255,14 @@ std::string would(double change) {
          percent_text(std::abs(change)) + (change < 0.0 ? " off" : " to") + " the force";
 }
 
-class LeftOuts {
+class AllNeglected {
  public:
-  explicit LeftOuts(const scene::Scene& scene)
+  explicit AllNeglected(const scene::Scene& scene)
       : scene_(scene),
-        rung_(scenario::rung(scene.scenario.solver.model)),
+        traits_(scenario::traits(scene.scenario.solver.model)),
         e_(scene.choice.expected) {}
 
-  std::vector<LeftOut> all() {
+  std::vector<Neglected> all() {
     if (!scene_.scenario.uniform()) {
       size();
       edge();
@@ -271,7 +272,7 @@ class LeftOuts {
       viscosity();
       waves();
     }
-    std::stable_sort(all_.begin(), all_.end(), [](const LeftOut& a, const LeftOut& b) {
+    std::stable_sort(all_.begin(), all_.end(), [](const Neglected& a, const Neglected& b) {
       return std::abs(a.change) > std::abs(b.change);
     });
     return std::move(all_);
@@ -291,17 +292,17 @@ class LeftOuts {
   }
 
   void size() {
-    const std::string free = one_way()             ? "leave out `contact.coupling`"
-                             : scene_.choice.given ? "leave out `solver.model`"
+    const std::string free = one_way()             ? "remove `contact.coupling`"
+                             : scene_.choice.given ? "remove `solver.model`"
                                                    : "";
-    if ((rung_.of == Model::hertz || one_way()) && std::abs(e_.size) > tolerance())
+    if ((traits_.of == Model::hertz || one_way()) && std::abs(e_.size) > tolerance())
       omit("the size of the body", e_.size, would(e_.size), free);
-    else if (rung_.of == Model::layer && std::abs(e_.sides) > tolerance())
+    else if (traits_.of == Model::layer && std::abs(e_.sides) > tolerance())
       omit("the sides of the body", e_.sides, would(e_.sides), free);
   }
 
   void edge() {
-    if (rung_.solid || mesh_is_tissue() || e_.edge <= 0.2 * tolerance()) return;
+    if (traits_.solid || mesh_is_tissue() || e_.edge <= 0.2 * tolerance()) return;
     omit("an edge of the body near the contact", e_.edge,
          "which may change the force by up to " + percent_text(e_.edge),
          waves_matter() ? "press farther from it"
@@ -309,7 +310,7 @@ class LeftOuts {
   }
 
   void ball() {
-    if (rung_.solid || e_.ball <= 0.2 * tolerance()) return;
+    if (traits_.solid || e_.ball <= 0.2 * tolerance()) return;
     omit("the size of the finger, a ball that is stiffer than Hertz's law has it", e_.ball,
          would(e_.ball), waves_matter() ? "" : "set `solver.model = \"solid\"`");
   }
@@ -319,41 +320,41 @@ class LeftOuts {
     if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
     const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;
     omit("counting the softness of the tissue once only", change, would(change),
-         "leave out `contact.coupling`", "the softness that counts twice");
+         "remove `contact.coupling`", "the softness that counts twice");
   }
 
   void large_strains() {
     const double most = std::abs(e_.deep) + (e_.depth_ratio ? 0.0 : e_.deep_error);
-    if (rung_.solid || scene_.depth_ratio || most < 0.2 * tolerance()) return;
+    if (traits_.solid || scene_.depth_ratio || most < 0.2 * tolerance()) return;
     if (!e_.depth_ratio)
       return omit(
           "large strains", most,
           "which may change the force by up to " + percent_text(most) + " where it is deepest",
           waves_matter()     ? "press less deep"
-          : mesh_is_tissue() ? "set `solver.model = \"solid\"` and leave out `contact.coupling`"
+          : mesh_is_tissue() ? "set `solver.model = \"solid\"` and remove `contact.coupling`"
                              : "set `solver.model = \"solid\"`");
     std::string remedy = "add `contact.depth = \"neo_hookean\"`";
     if (mesh_is_tissue())
       remedy = (waves_matter() ? remedy : "set `solver.model = \"solid\"`") +
-               " and leave out `contact.coupling`";
+               " and remove `contact.coupling`";
     omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
   }
 
   void viscosity() {
-    if (!scene_.relaxation.elastic() || mesh_is_tissue() || e_.viscous <= 0.2 * tolerance()) return;
+    if (!neglects_viscosity()) return;
     std::string remedy = "add `contact.viscosity = \"tissue\"`";
-    if (one_way()) remedy += " and leave out `contact.coupling`";
+    if (one_way()) remedy += " and remove `contact.coupling`";
     omit("viscosity", e_.viscous, would(e_.viscous) + " while pressing", remedy, "viscosity");
   }
 
   void waves() {
     if (!waves_matter()) return;
     const std::string when = would(e_.inertia) + " at this speed";
-    if (!rung_.inertia) return omit("waves in the tissue", e_.inertia, when, mesh_with_waves());
+    if (!traits_.inertia) return omit("waves in the tissue", e_.inertia, when, mesh_with_waves());
     if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
     omit("waves in the tissue", e_.inertia, when,
-         "take an integrator with inertia and `tissue.viscosity = \"none\"`, or "
-         "`contact.coupling = \"resolved\"`");
+         "take an integrator with inertia and " + viscosity_with_waves() +
+             ", or `contact.coupling = \"resolved\"`");
   }
 
   // `solid` is no remedy then, because it has no inertia.
@@ -363,19 +364,31 @@ class LeftOuts {
   [[nodiscard]] std::string mesh_with_waves() const {
     std::string mesh = "set `solver.model = \"coupled_springs\"`";
     if (scene_.scenario.tissue.viscosity != tissue::Viscosity::none)
-      mesh += " and `tissue.viscosity = \"none\"`";
+      mesh += " and " + viscosity_with_waves();
     return mesh;
   }
 
+  // The viscosity with which waves reach the force: none, or a solid that relaxes in the contact
+  // too where the force has viscosity or would have it by the remedy beside this one.
+  [[nodiscard]] std::string viscosity_with_waves() const {
+    return neglects_viscosity() || !scene_.relaxation.elastic()
+               ? "`tissue.viscosity = \"standard_linear_solid\"`"
+               : "`tissue.viscosity = \"none\"`";
+  }
+
+  [[nodiscard]] bool neglects_viscosity() const {
+    return scene_.relaxation.elastic() && !mesh_is_tissue() && e_.viscous > 0.2 * tolerance();
+  }
+
   const scene::Scene& scene_;
-  const scenario::Rung& rung_;
+  const scenario::ModelTraits& traits_;
   const scene::Estimates& e_;
-  std::vector<LeftOut> all_;
+  std::vector<Neglected> all_;
 };
 
 }  // namespace
 
-std::vector<LeftOut> left_out(const scene::Scene& scene) { return LeftOuts(scene).all(); }
+std::vector<Neglected> neglected(const scene::Scene& scene) { return AllNeglected(scene).all(); }
 
 bool states_mesh_error(const scene::Scene& scene) {
   return !scene.scenario.uniform() &&

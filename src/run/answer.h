@@ -10,7 +10,7 @@
 
 namespace palpate::run {
 
-struct LeftOut {
+struct Neglected {
   std::string what;     // "viscosity"
   double change = 0.0;  // of the force (in a uniform test of the strain) by the effect, relative
   std::string when;     // the change in words: "which would add 36 % to the force while pressing"
@@ -21,13 +21,13 @@ struct LeftOut {
 
 // Viscosity and large strains count from a fifth of `solver.tolerance` on, the others from the
 // tolerance on. The largest is the first.
-[[nodiscard]] std::vector<LeftOut> left_out(const scene::Scene& scene);
+[[nodiscard]] std::vector<Neglected> neglected(const scene::Scene& scene);
 
 // What is known before a case runs.
 struct Expected {
   record::Answer answer;
   std::optional<double> mesh_error;  // the mesh's part of it: run::mesh_error()
-  std::vector<LeftOut> left_out;
+  std::vector<Neglected> neglected;
 };
 [[nodiscard]] Expected expect(const scene::Scene& scene);
 
@@ -45,7 +45,7 @@ struct Expected {
 // The mesh's own error in the static force at the largest displacement of the loading history, a
 // fraction of it. Nothing without a finger on a mesh with `consistent`, or where the contact has no
 // solution.
-//                                                                   docs/theory.md [sinking]
+//                                                                docs/theory.md [compliance]
 [[nodiscard]] std::optional<double> mesh_error(const scene::Scene& scene);
 
 }  // namespace palpate::run

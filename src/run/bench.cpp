@@ -69,7 +69,7 @@ class Stages {
 
  private:
   mechanics::PressedMesh mesh_;
-  mechanics::SkinContacts seeing_;
+  mechanics::SurfaceContacts seeing_;
   int substeps_;
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 using scenario::Found;
 using scenario::Model;
-using scenario::Rung;
+using scenario::ModelTraits;
 using scene::Asked;
 using scene::Choice;
 using scene::Estimates;
@@ -32,14 +32,14 @@ using scene::SpecimenShapes;
 // without forecasts.
 const Forecast* cheapest(const Choice& choice, bool uniform, double tolerance) {
   const Forecast* best = nullptr;
-  for (const Forecast& rung : choice.rungs) {
-    if (!rung.cannot.empty()) continue;
+  for (const Forecast& forecast : choice.forecasts) {
+    if (!forecast.cannot.empty()) continue;
     // The force of a press is that of finite elements on either kind of springs, but motion and
     // pictures of independent springs do not have the tissue's Poisson's ratio.
-    if (!uniform && scenario::rung(rung.model).independent()) continue;
-    if (best == nullptr || rung.error < best->error) best = &rung;
-    if (rung.error > tolerance) continue;
-    return &rung;
+    if (!uniform && scenario::traits(forecast.model).independent()) continue;
+    if (best == nullptr || forecast.error < best->error) best = &forecast;
+    if (forecast.error > tolerance) continue;
+    return &forecast;
   }
   return best;
 }
@@ -165,15 +165,15 @@ class Chooser {
     const bool moving = about(asked_.solver.integrator).inertia;
     const double ringing = moving ? scene::uniform_ringing(asked_) : 0.0;
     if (moving)
-      ask(Asked::inertia, ringing, tolerance(), "the body rings",
-          "share of the strain by which it rings");
+      ask(Asked::inertia, ringing, tolerance(), "the body vibrates",
+          "share of the strain by which it vibrates");
     choice_.found.inertia_matters = moving;
-    const auto error_of_still = [&](const Rung& rung) {
-      return rung.own_ratio ? even_error + std::max(uneven ? rung.uneven : 0.0, meshed)
-                            : ratio_error;
+    const auto error_of_still = [&](const ModelTraits& traits) {
+      return traits.own_ratio ? even_error + std::max(uneven ? traits.uneven : 0.0, meshed)
+                              : ratio_error;
     };
-    for (const Rung& rung : scenario::ladder)
-      if (rung.uniform) add(rung, counted(ringing) + error_of_still(rung));
+    for (const ModelTraits& traits : scenario::model_table)
+      if (traits.uniform) add(traits, counted(ringing) + error_of_still(traits));
     take_cheapest();
   }
 
@@ -191,9 +191,9 @@ class Chooser {
       return;
     }
     std::string formulas;
-    for (const Rung& rung : scenario::ladder)
-      if (rung.formula() && !beyond(rung.of, asked_, choice_.touch))
-        formulas += (formulas.empty() ? "" : " or ") + std::string(rung.word);
+    for (const ModelTraits& traits : scenario::model_table)
+      if (traits.formula() && !beyond(traits.of, asked_, choice_.touch))
+        formulas += (formulas.empty() ? "" : " or ") + std::string(traits.word);
     ask(Asked::rigid_tissue, e.tissue_share, std::min(limit, 0.02));
     if (!reason) ask(Asked::half_space, std::abs(e.size), limit);
     if (box && !beyond(Model::layer, asked_, choice_.touch))
@@ -202,10 +202,10 @@ class Chooser {
     choice_.found = {.viscosity_matters = e.viscous >= 0.2 * limit,
                      .inertia_matters = e.inertia >= limit,
                      .depth_matters = std::abs(e.deep) >= 0.2 * limit && has_depth_ratio()};
-    for (const Rung& rung : scenario::ladder) {
+    for (const ModelTraits& traits : scenario::model_table) {
       Found found = choice_.found;
-      if (choice_.given && model_ == rung.of) found.depth_matters = takes_depth(rung.of);
-      add(rung, error_of(rung, found), of_mesh(rung));
+      if (choice_.given && model_ == traits.of) found.depth_matters = takes_depth(traits.of);
+      add(traits, error_of(traits, found), of_mesh(traits));
     }
     choice_.waves = choice_.found.inertia_matters ? 0.0 : counted(e.inertia);
     choice_.otherwise = *cheapest(choice_, false, limit);
@@ -213,7 +213,7 @@ class Chooser {
     ask(Asked::deep, std::abs(e.deep) + (e.depth_ratio ? 0.0 : e.deep_error), 0.2 * limit,
         deep_answer(e), e.depth_ratio ? "" : "bound of what large strains change");
     ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);
-    // A fifth of the tolerance, because viscosity that is left out adds to the model's error.
+    // A fifth of the tolerance, because neglected viscosity adds to the model's error.
     ask(Asked::time_dependent, e.viscous, 0.2 * limit, viscous_answer());
     ask(Asked::inertia, e.inertia, limit, inertia_answer());
     ask(Asked::shape_or_inclusion, 1.0, 0.0,
@@ -264,26 +264,26 @@ class Chooser {
     }
   }
 
-  // The error that a rung is expected to have with what the scenario gives it, and with what was
+  // The error that a model is expected to have with what the scenario gives it, and with what was
   // found where the scenario leaves a key open, a fraction of the force.
-  [[nodiscard]] double error_of(const Rung& rung, const Found& found) const {
+  [[nodiscard]] double error_of(const ModelTraits& traits, const Found& found) const {
     const Estimates& e = choice_.expected;
-    if (rung.solid) return of_mesh(rung) + of_waves(rung, found);
-    const double body = rung.meshed() ? of_mesh(rung) : of_size(rung);
-    return body + of_waves(rung, found) +
+    if (traits.solid) return of_mesh(traits) + of_waves(traits, found);
+    const double body = traits.meshed() ? of_mesh(traits) : of_size(traits);
+    return body + of_waves(traits, found) +
            (contact::mesh_is_tissue(asked_.contact.coupling) ? 0.0 : e.edge) + e.ball +
-           of_depth(rung, found);
+           of_depth(traits, found);
   }
 
   // The part of it that the mesh causes; 0 without one. Where the mesh is refined, what refining
   // leaves, else the error of the coarse mesh, which falls with the square of the cells' size.
-  [[nodiscard]] double of_mesh(const Rung& rung) const {
-    if (rung.solid) {
+  [[nodiscard]] double of_mesh(const ModelTraits& traits) const {
+    if (traits.solid) {
       const double narrowed = std::max(1.0, solid::most_narrowed / choice_.touch.width);
       if (tolerance() >= solid::error_of_one_mesh) return narrowed * solid::error_of_one_mesh;
       return narrowed * std::max(tolerance(), solid::error_of_three_meshes);
     }
-    if (!rung.meshed()) return 0.0;
+    if (!traits.meshed()) return 0.0;
     if (scene::refines(asked_)) return scene::refined_share * tolerance();
     if (coarse_nodes_ == 0) return unknown;
     if (std::holds_alternative<scenario::MeshFile>(asked_.tissue.mesh))
@@ -293,50 +293,50 @@ class Chooser {
   }
 
   // What a formula does not know of the body's size, over the body's force.
-  [[nodiscard]] double of_size(const Rung& rung) const {
+  [[nodiscard]] double of_size(const ModelTraits& traits) const {
     const Estimates& e = choice_.expected;
     if (std::holds_alternative<scenario::HalfSpace>(asked_.tissue.shape)) return 0.0;
     if (!e.measured) return unknown;
-    const double change = rung.of == Model::hertz ? e.size : e.sides;
+    const double change = traits.of == Model::hertz ? e.size : e.sides;
     return std::abs(1.0 / (1.0 + change) - 1.0) + e.size_error;
   }
 
-  // What the depth leaves open: the error of its factor, or the effect that is left out. The factor
+  // What the depth leaves open: the error of its factor, or the neglected effect. The factor
   // is of statics; of what waves add to the force, the bound is open. At least 0.1 %, for a contact
   // that is never quite as small as a contact law assumes.
-  [[nodiscard]] double of_depth(const Rung& rung, const Found& found) const {
+  [[nodiscard]] double of_depth(const ModelTraits& traits, const Found& found) const {
     using Depth = scenario::Contact::Depth;
     constexpr double least = 1e-3;
     const Estimates& e = choice_.expected;
     const auto depth = case_.scenario.contact.depth.value_or(
         found.depth_matters ? Depth::neo_hookean : Depth::hertz);
     const bool used = depth == Depth::neo_hookean && has_depth_ratio();
-    const double waves = computes_waves(rung, found) ? e.inertia : 0.0;
+    const double waves = computes_waves(traits, found) ? e.inertia : 0.0;
     const double in_waves = e.depth_ratio ? waves / (1.0 + waves) * e.deep_bound : 0.0;
     return std::max(least, (used ? 0.0 : std::abs(e.deep)) + e.deep_error + in_waves);
   }
 
   // All of the effect where the model does not move, or its mesh does not carry the waves.
-  [[nodiscard]] double of_waves(const Rung& rung, const Found& found) const {
+  [[nodiscard]] double of_waves(const ModelTraits& traits, const Found& found) const {
     const bool carried =
-        computes_waves(rung, found) &&
+        computes_waves(traits, found) &&
         scene::carries_waves(asked_, choice_.touch, choice_.expected.contact_radius);
-    return (carried ? rung.waves : 1.0) * counted(choice_.expected.inertia);
+    return (carried ? traits.waves : 1.0) * counted(choice_.expected.inertia);
   }
 
-  [[nodiscard]] bool computes_waves(const Rung& rung, const Found& found) const {
+  [[nodiscard]] bool computes_waves(const ModelTraits& traits, const Found& found) const {
     const auto& integrator = case_.scenario.solver.integrator;
     const bool moving = integrator ? about(*integrator).inertia : found.inertia_matters;
-    return rung.inertia && moving && moves();
+    return traits.inertia && moving && moves();
   }
 
-  // An effect of inertia that is left out. It counts from a fifth of the tolerance on, as depth and
+  // A neglected effect of inertia. It counts from a fifth of the tolerance on, as depth and
   // viscosity do.
   [[nodiscard]] double counted(double inertia) const {
     return inertia < 0.2 * tolerance() ? 0.0 : inertia;
   }
 
-  // Whether the rungs of this scenario can use the factor of a deep press.
+  // Whether the models of this scenario can use the factor of a deep press.
   [[nodiscard]] bool has_depth_ratio() const {
     return choice_.expected.depth_ratio && !contact::mesh_is_tissue(asked_.contact.coupling);
   }
@@ -371,36 +371,36 @@ class Chooser {
   [[nodiscard]] std::string viscous_answer() const {
     if (asked_.contact.viscosity == scenario::Contact::Viscosity::tissue)
       return "Lee and Radok's force while the contact grows, Ting's while it shrinks";
-    return "left out, because the scenario does not set `contact.viscosity`: the force is that of "
+    return "neglected, because the scenario does not set `contact.viscosity`: the force is that of "
            "the relaxed tissue";
   }
 
   [[nodiscard]] std::string inertia_answer() const {
     if (moves()) return "a mesh includes it, a formula does not";
-    return "left out of the force of this scenario: `consistent` includes it with "
+    return "neglected in the force of this scenario: `consistent` includes it with "
            "`viscosity` none, nodal_drag, or a solid that relaxes in the contact too; else use "
            "`resolved`";
   }
 
-  void add(const Rung& rung, double error, double of_mesh = 0.0) {
-    const bool named = choice_.given && model_ == rung.of;
+  void add(const ModelTraits& traits, double error, double of_mesh = 0.0) {
+    const bool named = choice_.given && model_ == traits.of;
     if (!asked_.uniform()) {
-      std::string cannot = beyond(rung.of, asked_, choice_.touch).value_or("");
-      if (rung.solid && cannot.empty() && !named) cannot = no_solid();
+      std::string cannot = beyond(traits.of, asked_, choice_.touch).value_or("");
+      if (traits.solid && cannot.empty() && !named) cannot = no_solid();
       if (!cannot.empty()) {
-        choice_.rungs.push_back({.model = rung.of, .cannot = cannot});
+        choice_.forecasts.push_back({.model = traits.of, .cannot = cannot});
         return;
       }
     }
     // The time of a set-up by conjugate gradients.
     const double nodes = scene::expected_nodes(asked_.tissue.mesh);
     const double set_up = 5.5e-5 * nodes * std::max(1.0, std::cbrt(nodes / 8000.0));
-    choice_.rungs.push_back({.model = rung.of,
-                             .error = error,
-                             .of_mesh = of_mesh,
-                             .seconds = rung.cost.once +
-                                        (asked_.regions.empty() ? 0.0 : rung.cost.layered) +
-                                        rung.cost.set_ups * set_up});
+    choice_.forecasts.push_back(
+        {.model = traits.of,
+         .error = error,
+         .of_mesh = of_mesh,
+         .seconds = traits.cost.once + (asked_.regions.empty() ? 0.0 : traits.cost.layered) +
+                    traits.cost.set_ups * set_up});
   }
 
   void take_cheapest() {

@@ -8,7 +8,7 @@
 
 namespace palpate::run {
 
-// `quick` leaves out models that take seconds: for searches and for steps in real time.
+// `quick` excludes models that take seconds: for searches and for steps in real time.
 enum class Models { all, quick };
 
 // The cheapest model whose stated error is within `solver.tolerance`, or else the one with the

@@ -19,7 +19,7 @@ namespace {
 std::string chosen(const scenario::Resolved& scenario) {
   namespace words = scenario::words;
   const scenario::Resolved::Solver& solver = scenario.solver;
-  std::string text = "solver.model = " + std::string(scenario::rung(solver.model).word);
+  std::string text = "solver.model = " + std::string(scenario::traits(solver.model).word);
   if (scenario.meshed())
     text += std::string(", solver.integrator = ") + about(solver.integrator).word +
             ", solver.volume = " + words::word(words::volumes, solver.volume);

@@ -36,7 +36,7 @@ void run_programme(const scene::Scene& scene, record::CaseRecord& record);
 
 // Runs the scenes and returns their records in the order of the scenes. `finished` is called after
 // each case, on the worker's thread, with several calls at a time. Where the thread's StopScope is
-// stopped, running cases end as interrupted; these and the cases not begun are left out.
+// stopped, running cases end as interrupted; these and the cases not begun are excluded.
 [[nodiscard]] std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished);

@@ -76,7 +76,7 @@ class Findings {
  public:
   Findings(const scene::Scene& scene, record::CaseRecord& record)
       : scene_(scene),
-        rung_(scenario::rung(scene.scenario.solver.model)),
+        traits_(scenario::traits(scene.scenario.solver.model)),
         record_(record),
         before_(record.findings) {
     record_.findings.clear();
@@ -85,7 +85,7 @@ class Findings {
   void all() {
     add("outcome", std::string(record::outcome_word(record_.outcome)));
     add("last_stable_time_s", record_.last_stable_time);
-    add("model", rung_.word);
+    add("model", traits_.word);
     surface();
     if (scene_.specimen) specimen(*scene_.specimen);
     if (!record_.contact.empty()) contact();
@@ -98,10 +98,10 @@ class Findings {
     for (const Finding& finding : before_) {
       record_.findings.push_back(finding);
       if (finding.name == "energy_imbalance" && std::get<double>(finding.value) > 0.05)
-        remark(percent_text(std::get<double>(finding.value)) +
-               " of the energy is not accounted for: the first step or all of them are too long "
-               "for what happens in them; set a shorter `output.interval` or more "
-               "`solver.substeps`");
+        warning(percent_text(std::get<double>(finding.value)) +
+                " of the energy is not accounted for: the first step or all of them are too long "
+                "for what happens in them; set a shorter `output.interval` or more "
+                "`solver.substeps`");
     }
     record_.answer = answer(scene_, record_);
   }
@@ -110,30 +110,32 @@ class Findings {
   void add(const std::string& name, record::Cell value) {
     record_.findings.push_back({name, std::move(value)});
   }
-  void remark(const std::string& sentence) { record_.remarks.push_back(sentence); }
+  void warning(const std::string& sentence) { record_.warnings.push_back(sentence); }
 
   void surface() {
-    const std::string& mended = scene_.choice.touch.remark;
-    if (!mended.empty()) remark(mended);
+    const std::string& mended = scene_.choice.touch.warning;
+    if (!mended.empty()) warning(mended);
     const scenario::Resolved& scenario = scene_.scenario;
     const scene::SurfaceTouch& touch = scene_.choice.touch;
-    const geometry::SmoothSurface* const skin = scene_.specimen ? &*scene_.specimen->surface
-                                                : scene_.solid  ? scene_.solid->skin.get()
-                                                                : nullptr;
-    if (skin == nullptr || scenario.uniform() || !touch.known() || !touch.size.allFinite() ||
-        !scenario.tissue.held_from_below())
+    const geometry::SmoothSurface* const outer_surface =
+        scene_.specimen ? &*scene_.specimen->surface
+        : scene_.solid  ? scene_.solid->outer_surface.get()
+                        : nullptr;
+    if (outer_surface == nullptr || scenario.uniform() || !touch.known() ||
+        !touch.size.allFinite() || !scenario.tissue.held_from_below())
       return;
     // A load spreads by about 45 degrees.
     constexpr double least_under = 0.1;
-    const double height = touch.position.z() - scene::base_level(scenario, skin->surface());
+    const double height =
+        touch.position.z() - scene::base_level(scenario, outer_surface->surface());
     const scene::BaseArea base =
-        scene::base_area(scenario, skin->surface(), touch.position, height);
+        scene::base_area(scenario, outer_surface->surface(), touch.position, height);
     if (base.under_press < least_under)
-      remark("only " + percent_text(base.under_press) +
-             " of the underside below the press is held: the body bends or turns there; see the "
-             "base in "
-             "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is held "
-             "elsewhere");
+      warning("only " + percent_text(base.under_press) +
+              " of the underside below the press is held: the body bends or turns there; see the "
+              "base in "
+              "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is held "
+              "elsewhere");
   }
 
   void specimen(const scene::Specimen& specimen) {
@@ -143,7 +145,7 @@ class Findings {
     if (const auto& refined = specimen.refined;
         refined && refined->start_nodes != specimen.network.nodes())
       add("nodes_before_refining", static_cast<double>(refined->start_nodes));
-    if (!specimen.remark.empty()) remark(specimen.remark);
+    if (!specimen.warning.empty()) warning(specimen.warning);
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
     add("springs", static_cast<double>(specimen.network.springs()));
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));
@@ -155,12 +157,13 @@ class Findings {
     add("damping_ratio", damping_ratio(specimen));
     if (scene_.scenario.uniform()) sampling(specimen);
     if (!specimen.plan.stable())
-      remark("the step is " + rounded_text(specimen.plan.substep / *specimen.plan.limit, 3) +
-             " times the stability limit: this motion grows from rounding, do not trust it");
+      warning("the step is " + rounded_text(specimen.plan.substep / *specimen.plan.limit, 3) +
+              " times the stability limit: this motion grows from rounding, do not trust it");
     if (std::abs(modulus / table_modulus - 1.0) > 0.05)
-      remark("the springs as a whole are " + percent_text(std::abs(modulus / table_modulus - 1.0)) +
-             (modulus > table_modulus ? " stiffer" : " softer") +
-             " than the tissue's Young's modulus, measured on the specimen");
+      warning("the springs as a whole are " +
+              percent_text(std::abs(modulus / table_modulus - 1.0)) +
+              (modulus > table_modulus ? " stiffer" : " softer") +
+              " than the tissue's Young's modulus, measured on the specimen");
   }
 
   // Rows that are too far apart to show the ringing of the body.
@@ -172,10 +175,10 @@ class Findings {
     const double period = 2.0 * std::numbers::pi / lowest_frequency(specimen) /
                           std::sqrt(specimen.law.instantaneous_ratio());
     if (scenario.output.interval < 0.5 * period) return;
-    remark("the body rings with a period of about " + quantity_text(period, unit::ms) +
-           ", and rows are " + quantity_text(scenario.output.interval, unit::ms) +
-           " apart: the curve is not that of the ringing; leave out `solver.integrator`, or set "
-           "`output.interval` to a tenth of the period");
+    warning("the body vibrates with a period of about " + quantity_text(period, unit::ms) +
+            ", and rows are " + quantity_text(scenario.output.interval, unit::ms) +
+            " apart: the curve does not resolve it; remove `solver.integrator`, or set "
+            "`output.interval` to a tenth of the period");
   }
 
   // Of the lowest axial mode of a bar on a fixed base, 1/s.             docs/theory.md [damping]
@@ -217,21 +220,21 @@ class Findings {
     if (states_mesh_error(scene_)) {
       add("mesh_error", peak.mesh_error);
       if (scene_.specimen && peak.mesh_error > scene_.scenario.solver.tolerance)
-        remark("the mesh's own error in the force is " + error_text(peak.mesh_error) +
-               ", above the tolerance of " + percent_text(scene_.scenario.solver.tolerance) +
-               (scene_.specimen->refined
-                    ? ": refining stopped at " + std::to_string(scene_.specimen->network.nodes()) +
-                          " nodes; raise `tissue.mesh.most_nodes`"
-                    : ": set `tissue.mesh.refine = true`, or take a finer mesh"));
+        warning("the mesh's own error in the force is " + error_text(peak.mesh_error) +
+                ", above the tolerance of " + percent_text(scene_.scenario.solver.tolerance) +
+                (scene_.specimen->refined
+                     ? ": refining stopped at " + std::to_string(scene_.specimen->network.nodes()) +
+                           " nodes; raise `tissue.mesh.most_nodes`"
+                     : ": set `tissue.mesh.refine = true`, or take a finer mesh"));
     }
     identities();
     predictions(peak);
     validity(peak);
     if (peak.contact_force < 10.0 * pull_off)
-      remark("the greatest force is below ten times the adhesive pull-off of about " +
-             rounded_text(pull_off, 2) +
-             " N: a measurement would show adhesion, which is not "
-             "modelled");
+      warning("the greatest force is below ten times the adhesive pull-off of about " +
+              rounded_text(pull_off, 2) +
+              " N: a measurement would show adhesion, which is not "
+              "modelled");
   }
 
   void force_at(double depth) {
@@ -241,8 +244,8 @@ class Findings {
     const std::optional<double> force = force_at_indentation(scene_.scenario, record_, depth);
     if (force) return add(name, *force);
     add(name, std::monostate{});
-    remark("the first `indent` did not reach the indentation of " + text +
-           " that `output.force_at` asks for: that force is not known; press deeper");
+    warning("the first `indent` did not reach the indentation of " + text +
+            " that `output.force_at` asks for: that force is not known; press deeper");
   }
 
   void identities() {
@@ -280,7 +283,7 @@ class Findings {
     const auto mesh_error =
         states_mesh_error(scene_) ? std::optional(peak.mesh_error) : std::nullopt;
     if (const auto stated = stated_error(scene_, mesh_error)) add("stated_error", *stated);
-    if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty()) remark(text);
+    if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty()) warning(text);
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (!touch.known() || peak.travel <= 0.0) return;
     const auto law = contact::contact_law(scene_.scenario.contact.law,
@@ -295,33 +298,33 @@ class Findings {
   void validity(const record::ContactRow& peak) {
     const auto coupling = scene_.scenario.contact.coupling;
     const scene::Estimates& e = expected_;
-    const bool mesh = rung_.meshed();
+    const bool mesh = traits_.meshed();
     const double depth = peak.indentation / scene_.law().radius;
     const auto& ratio = scene_.depth_ratio;  // where it is used
-    if (!contact::mesh_is_tissue(coupling) && !rung_.solid && ratio &&
+    if (!contact::mesh_is_tissue(coupling) && !traits_.solid && ratio &&
         peak.travel > ratio->last_depth() && depth > 0.1)
-      remark("the displacement reached " + quantity_text(peak.travel, unit::mm) +
-             ", and the factor for deep presses is known up to " +
-             quantity_text(ratio->last_depth(), unit::mm) + " here: the force may be off by " +
-             percent_text(e.deep_error) + "; press less deep" +
-             (e.inertia > scene_.scenario.solver.tolerance
-                  ? ""  // which `solid` does not have
-                  : ", or take `solver.model = \"solid\"`"));
+      warning("the displacement reached " + quantity_text(peak.travel, unit::mm) +
+              ", and the factor for deep presses is known up to " +
+              quantity_text(ratio->last_depth(), unit::mm) + " here: the force may be off by " +
+              percent_text(e.deep_error) + "; press less deep" +
+              (e.inertia > scene_.scenario.solver.tolerance
+                   ? ""  // which `solid` does not have
+                   : ", or take `solver.model = \"solid\"`"));
     if (mesh && coupling == contact::Coupling::series)
-      remark("series coupling counts the tissue's compliance twice: on a half-space " +
-             percent_text(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +
-             " of the force is lost, and the force depends on the mesh");
+      warning("series coupling counts the tissue's compliance twice: on a half-space " +
+              percent_text(1.0 - std::pow(1.0 + (1.0 - scene_.finger.compliance_share), -1.5)) +
+              " of the force is lost, and the force depends on the mesh");
     const double ratio_error =
         mesh ? std::abs(scene_.specimen->measured.poisson_ratio -
                         std::min(scene_.scenario.tissue.poisson_ratio, 0.4995))
              : 0.0;
     if (ratio_error > 0.05 && contact::mesh_is_tissue(coupling))
-      remark("the springs have a Poisson's ratio of " +
-             rounded_text(scene_.specimen->measured.poisson_ratio, 2) + ", the tissue " +
-             number_text(scene_.scenario.tissue.poisson_ratio) +
-             ": the effect of sides and other tissues may be wrong by about " +
-             percent_text(ratio_error * (std::abs(e.size) + 0.05)) +
-             " of the force; `coupled_springs` has the tissue's ratio");
+      warning("the springs have a Poisson's ratio of " +
+              rounded_text(scene_.specimen->measured.poisson_ratio, 2) + ", the tissue " +
+              number_text(scene_.scenario.tissue.poisson_ratio) +
+              ": the effect of sides and other tissues may be wrong by about " +
+              percent_text(ratio_error * (std::abs(e.size) + 0.05)) +
+              " of the force; `coupled_springs` has the tissue's ratio");
   }
 
   void strain() {
@@ -348,7 +351,7 @@ class Findings {
     if (scene_.specimen->law.kind == tissue::Viscosity::kelvin_voigt)
       for (const scenario::Step& step : scene_.scenario.steps)
         if (std::holds_alternative<scenario::Relax>(step)) {
-          remark(
+          warning(
               "Kelvin-Voigt does not relax: after the impulse of a strain applied at once the "
               "stress is constant; use `viscosity = \"standard_linear_solid\"`");
           break;
@@ -356,7 +359,7 @@ class Findings {
   }
 
   const scene::Scene& scene_;
-  const scenario::Rung& rung_;
+  const scenario::ModelTraits& traits_;
   record::CaseRecord& record_;
   std::vector<Finding> before_;
   const scene::Estimates& expected_ = scene_.choice.expected;
@@ -399,7 +402,7 @@ class KnownFailures {
 
  private:
   void add(const char* name, double value) { record_.findings.push_back({name, value}); }
-  void remark(const std::string& sentence) { record_.remarks.push_back(sentence); }
+  void warning(const std::string& sentence) { record_.warnings.push_back(sentence); }
 
   [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
 
@@ -414,7 +417,7 @@ class KnownFailures {
     const scene::FirstTouch touch = scene::first_touch(scene_);
     std::vector<int> start;
     for (const int vertex : specimen.surface->surface().triangles[as_index(touch.at.triangle)])
-      start.push_back(specimen.skin[as_index(vertex)]);
+      start.push_back(specimen.outer_surface[as_index(vertex)]);
     const tissue::Part part =
         tissue::part_around(specimen.network, start, *scene_.scenario.solver.rings);
     const Vec3 centre = specimen.surface->position(touch.at);
@@ -425,14 +428,14 @@ class KnownFailures {
     constexpr double least = 0.86;
     const double stiffening = least * peak_.contact_radius / nearest;
     if (share <= tolerance() || stiffening <= tolerance()) return;
-    remark("the edge of the part that moves is " + millimetres(nearest) +
-           " from the contact and carries " + percent_text(share) +
-           " of its force: a base that near stiffens a half-space by at least " +
-           percent_text(stiffening) + "; give more `solver.rings`, or \"all\"");
+    warning("the edge of the part that moves is " + millimetres(nearest) +
+            " from the contact and carries " + percent_text(share) +
+            " of its force: a base that near stiffens a half-space by at least " +
+            percent_text(stiffening) + "; give more `solver.rings`, or \"all\"");
   }
 
   // Mean static displacement of the surface under a Hertz pressure of 1 N, m/N; 0 if not rigid.
-  [[nodiscard]] double sinking(const tissue::Network& network) const {
+  [[nodiscard]] double surface_displacement(const tissue::Network& network) const {
     const scene::Specimen& specimen = *scene_.specimen;
     SymmetricSolver solver;
     if (!solver.prepare(tissue::stiffness_matrix(network), specimen.held)) return 0.0;
@@ -446,7 +449,7 @@ class KnownFailures {
     contact::Spreader(*specimen.surface).spread(patch, spread);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * network.nodes());
     for (std::size_t k = 0; k < spread.vertices.size(); ++k)
-      load.segment<3>(3 * specimen.skin[as_index(spread.vertices[k])]) -=
+      load.segment<3>(3 * specimen.outer_surface[as_index(spread.vertices[k])]) -=
           spread.shares[k] * patch.normal;
     Eigen::VectorXd moved;
     return solver.solve(load, moved) ? load.dot(moved) : 0.0;
@@ -455,7 +458,7 @@ class KnownFailures {
   // Compares with the same mesh with volumes averaged at nodes.
   void locking() {
     const scenario::Resolved::Solver& solver = scene_.scenario.solver;
-    if (solver.volume != tissue::Volume::tetrahedron || !scenario::rung(solver.model).coupled() ||
+    if (solver.volume != tissue::Volume::tetrahedron || !scenario::traits(solver.model).coupled() ||
         !scene_.scenario.regions.empty())
       return;
     const scene::Specimen& specimen = *scene_.specimen;
@@ -464,13 +467,13 @@ class KnownFailures {
     const std::array tissues{tissue::Isotropic{specimen.measured.young_modulus,
                                                std::min(ratio, scene::most_poisson_ratio)}};
     tissue::couple(averaged, specimen.mesh, tissues, tissue::Volume::nodal, scene::own_share);
-    const double locked = sinking(averaged) / sinking(specimen.network);
+    const double locked = surface_displacement(averaged) / surface_displacement(specimen.network);
     add("locking", locked);
     constexpr double most = 1.25;  // meshes that do not lock differ by up to 12 % (nu = 0.45)
     if (locked > most)
-      remark("volumes of single tetrahedra lock at nu " + rounded_text(ratio) +
-             ": under the finger the mesh moves " + rounded_text(locked, 2) +
-             " times less than with volumes averaged at nodes; write `solver.volume = \"nodal\"`");
+      warning("volumes of single tetrahedra lock at nu " + rounded_text(ratio) +
+              ": under the finger the mesh moves " + rounded_text(locked, 2) +
+              " times less than with volumes averaged at nodes; write `solver.volume = \"nodal\"`");
   }
 
   // The displacement is of the order F / (E l) with the cell size l and does not converge.
@@ -480,9 +483,9 @@ class KnownFailures {
     for (const record::Finding& finding : record_.findings)
       if (finding.name == "surface_displacement_mm")
         sunk = unit::mm.to_si(std::get<double>(finding.value));
-    remark("all of the force is on one node, which has sunk by " + millimetres(sunk) +
-           ": it would move about twice as far on a mesh of half the cells' size; write "
-           "`contact.spread = \"pressure\"`");
+    warning("all of the force is on one node, which has sunk by " + millimetres(sunk) +
+            ": it would move about twice as far on a mesh of half the cells' size; write "
+            "`contact.spread = \"pressure\"`");
   }
 
   void unsigned_curvature() {
@@ -501,9 +504,10 @@ class KnownFailures {
     const double lost = mean(geometry::CurvatureMethod::taubin_unsigned);
     add("signed_curvature_per_m", kept);
     if (std::abs(lost - kept) > tolerance() * std::abs(lost))
-      remark("curvature without its sign is " + rounded_text(lost, 3) +
-             " 1/m where the tissue has " + rounded_text(kept, 3) +
-             " 1/m: it is hollow there in some direction; write `contact.curvature = \"quadric\"`");
+      warning(
+          "curvature without its sign is " + rounded_text(lost, 3) + " 1/m where the tissue has " +
+          rounded_text(kept, 3) +
+          " 1/m: it is hollow there in some direction; write `contact.curvature = \"quadric\"`");
   }
 
   // Without sticking, the whole friction force appears or vanishes from one row to the next.
@@ -516,9 +520,9 @@ class KnownFailures {
                       std::abs(record_.contact[i].tangential - record_.contact[i - 1].tangential));
     add("friction_jump_N", jump);
     if (jump > 0.5 * contact.friction * peak_.contact_force)
-      remark("friction jumped by " + rounded_text(jump, 3) +
-             " N between two rows: at rest eq. (4) has no direction, and in the hand it chatters; "
-             "write `contact.slip = \"mindlin\"`");
+      warning("friction jumped by " + rounded_text(jump, 3) +
+              " N between two rows: at rest eq. (4) has no direction, and in the hand it chatters; "
+              "write `contact.slip = \"mindlin\"`");
   }
 
   // The dashpots of a Kelvin-Voigt contact follow the rate, which changes its sign at once.
@@ -545,10 +549,11 @@ class KnownFailures {
     if (drop <= 0.0) return;
     add("turning_drop", drop);
     if (drop > tolerance())
-      remark("when the finger turned back the force fell from " + rounded_text(before, 3) + " to " +
-             rounded_text(after, 3) +
-             " N within a row: Kelvin-Voigt's dashpots follow the rate, which turns at once; write "
-             "`tissue.viscosity = \"standard_linear_solid\"`");
+      warning(
+          "when the finger turned back the force fell from " + rounded_text(before, 3) + " to " +
+          rounded_text(after, 3) +
+          " N within a row: Kelvin-Voigt's dashpots follow the rate, which turns at once; write "
+          "`tissue.viscosity = \"standard_linear_solid\"`");
   }
 
   void device() {
@@ -562,11 +567,11 @@ class KnownFailures {
     add("needed_device_damping_N_s_per_m", needed);
     add("passive_depth_mm", unit::mm.from_si(depth));
     if (needed > *asked.damping)
-      remark("a device of " + quantity_text(*asked.damping, unit::N_s_per_m) + " and frames of " +
-             quantity_text(asked.frame, unit::ms) + " generates energy below " +
-             millimetres(depth) + ": at " + millimetres(peak_.indentation) + " the contact needs " +
-             rounded_text(needed, 3) +
-             " N s/m (Colgate and Brown); shorten `device.frame`, or press less deep");
+      warning("a device of " + quantity_text(*asked.damping, unit::N_s_per_m) + " and frames of " +
+              quantity_text(asked.frame, unit::ms) + " generates energy below " +
+              millimetres(depth) + ": at " + millimetres(peak_.indentation) +
+              " the contact needs " + rounded_text(needed, 3) +
+              " N s/m (Colgate and Brown); shorten `device.frame`, or press less deep");
   }
 
   const scene::Scene& scene_;

@@ -1,4 +1,4 @@
-// Computes the findings and remarks of a finished case.
+// Computes the findings and warnings of a finished case.
 #pragma once
 
 #include <optional>
@@ -21,10 +21,10 @@ namespace palpate::run {
 [[nodiscard]] std::optional<double> creep_half_time(const record::CaseRecord& record,
                                                     double elastic_strain);
 
-// Adds findings (named numbers) and remarks (sentences on validity) from the scene and the rows.
+// Adds findings (named numbers) and warnings (sentences on validity) from the scene and the rows.
 void add_findings(const scene::Scene& scene, record::CaseRecord& record);
 
-// Adds findings and remarks to a press whose settings select a method that fails: a fixed edge too
+// Adds findings and warnings to a press whose settings select a method that fails: a fixed edge too
 // near, volumes that lock, a load on one node, curvature without sign, friction that jumps,
 // Kelvin-Voigt tissue under a finger that turns back, and a stiffness that a device cannot render
 // passively. Adds nothing otherwise.                                    docs/theory.md [failures]

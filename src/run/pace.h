@@ -34,7 +34,7 @@ struct Pace {
 [[nodiscard]] bool end_early(record::CaseRecord& record, record::Outcome outcome,
                              const std::string& reason);
 
-// Runs all steps and adds rows, maps, frames, remarks and findings of the mesh to `record`. Throws
+// Runs all steps and adds rows, maps, frames, warnings and findings of the mesh to `record`. Throws
 // Stopped where its thread is stopped.
 void press(const scene::Scene& scene, record::CaseRecord& record);
 

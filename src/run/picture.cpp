@@ -175,15 +175,17 @@ std::vector<Face> thinned(std::vector<Face> all) {
 
 // Marks the surface up to the base's level.
 void mark_held(const scenario::Resolved& scenario, std::vector<Face>& all) {
-  geometry::Surface skin;
+  geometry::Surface outer_surface;
   for (const Face& face : all) {
     if (face.within >= 0) continue;
-    const int next = static_cast<int>(skin.vertices.size());
-    skin.triangles.push_back({next, next + 1, next + 2});
-    skin.vertices.insert(skin.vertices.end(), face.corners.begin(), face.corners.end());
+    const int next = static_cast<int>(outer_surface.vertices.size());
+    outer_surface.triangles.push_back({next, next + 1, next + 2});
+    outer_surface.vertices.insert(outer_surface.vertices.end(), face.corners.begin(),
+                                  face.corners.end());
   }
-  const scene::Box box = scene::box_of(skin.vertices);
-  const double level = scene::base_level(scenario, skin) + 1e-9 * (box.high - box.low).norm();
+  const scene::Box box = scene::box_of(outer_surface.vertices);
+  const double level =
+      scene::base_level(scenario, outer_surface) + 1e-9 * (box.high - box.low).norm();
   all = cut(all, scenario.tissue.base_up, level, 1e-6 * (box.high - box.low).norm());
   for (Face& face : all) {
     const Vec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
@@ -192,9 +194,9 @@ void mark_held(const scenario::Resolved& scenario, std::vector<Face>& all) {
 }
 
 // The walls of cavities, seen from the tissue around them.
-std::vector<Face> cavity_faces(const geometry::Surface& skin, int region) {
+std::vector<Face> cavity_faces(const geometry::Surface& outer_surface, int region) {
   std::vector<Face> found;
-  for (const auto& [part, triangles] : geometry::parts_of(skin)) {
+  for (const auto& [part, triangles] : geometry::parts_of(outer_surface)) {
     if (geometry::enclosed(part).volume > 0.0) continue;
     for (const auto& [a, b, c] : part.triangles)
       found.push_back(
@@ -223,7 +225,7 @@ record::ScenePicture picture_of(const scene::Scene& scene) {
   picture.materials = {scenario.tissue.material};
   for (const auto& region : scenario.regions) picture.materials.push_back(region.material);
   const std::vector<Face> walls =
-      cavity_faces(mesh ? geometry::skin(*mesh).surface : body.parts.front().surface,
+      cavity_faces(mesh ? geometry::outer_surface(*mesh).surface : body.parts.front().surface,
                    static_cast<int>(picture.materials.size()));
   if (!walls.empty()) picture.materials.emplace_back(record::ScenePicture::cavity);
   picture.faces.insert(picture.faces.end(), walls.begin(), walls.end());

@@ -93,8 +93,8 @@ class Press {
       const Motion motion = make_motion(scene_.scenario.steps[i], touch_.travel, sideways, scene_);
       if (i == 0) write_row();
       if (motion.duration <= 0.0) {  // possible after a step to a force, whose travel is unknown
-        record_.remarks.push_back("step " + std::to_string(step_) +
-                                  " has nothing to do: the finger is there already");
+        record_.warnings.push_back("step " + std::to_string(step_) +
+                                   " has nothing to do: the finger is there already");
         continue;
       }
       if (!run(motion)) return;
@@ -121,29 +121,30 @@ class Press {
     if (mesh_ && scene_.scenario.solver.rings)
       record_.findings.push_back({"edge_reaction_over_force", edge_share_});
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
-      record_.findings.push_back({"surface_displacement_mm", unit::mm.from_si(deepest_sinking_)});
+      record_.findings.push_back(
+          {"surface_displacement_mm", unit::mm.from_si(deepest_surface_displacement_)});
     if (!mesh_ && scene_.scenario.output.tissue)
-      record_.remarks.push_back(
-          "`" + std::string(scenario::rung(scene_.scenario.solver.model).word) +
+      record_.warnings.push_back(
+          "`" + std::string(scenario::traits(scene_.scenario.solver.model).word) +
           "` writes no displacements of a mesh; set `solver.model = \"coupled_springs\"` for "
           "`output.tissue`");
     if (on_crease_)
-      record_.remarks.push_back(
+      record_.warnings.push_back(
           "the finger touched the specimen at a sharp edge or rim: the curvature there is that of "
           "the "
           "side it touched");
     if (folded_at_ >= 0.0)
-      record_.remarks.push_back(
+      record_.warnings.push_back(
           "at a displacement of " + quantity_text(folded_at_, unit::mm) +
           " a tetrahedron of the computed displacement turns inside out; the force does not depend "
           "on it, but pictures of the deformed mesh are wrong from there on");
     if (nearly_conforming_)
-      record_.remarks.push_back(
+      record_.warnings.push_back(
           "the tissue is hollow beyond half the finger's curvature where it was pressed: the "
           "contact "
           "grows wide compared with the sphere, and Hertz's law is inaccurate");
     if (one_sided_)
-      record_.remarks.push_back(
+      record_.warnings.push_back(
           "near a boundary or sharp edge the curvature was estimated from one side only, to first "
           "order");
   }
@@ -280,7 +281,7 @@ class Press {
       edge_share_ = std::max(edge_share_, mesh_->edge_reaction() / touch_.pressed());
     if (mesh_ && scene_.scenario.contact.spread == scenario::Contact::Spread::nearest_node)
       for (const mechanics::SphereContact& one : touch_.contacts)
-        deepest_sinking_ = std::max(deepest_sinking_, sunk(one));
+        deepest_surface_displacement_ = std::max(deepest_surface_displacement_, sunk(one));
     if (!mesh_) record_.last_stable_time = time_;
     if (wants_meshes_at(scenario::Output::Meshes::rows)) add_frame();
   }
@@ -296,8 +297,8 @@ class Press {
     double sum = 0.0;
     for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
       const auto vertex = as_index(contact.load.vertices[k]);
-      sum -= contact.load.shares[k] *
-             contact.patch.normal.dot(displacement.segment<3>(3 * scene_.specimen->skin[vertex]));
+      sum -= contact.load.shares[k] * contact.patch.normal.dot(displacement.segment<3>(
+                                          3 * scene_.specimen->outer_surface[vertex]));
     }
     return sum;
   }
@@ -318,7 +319,7 @@ class Press {
     const integrate::Vector displacement = mesh_->displacement();
     for (int n = 0; n < specimen.network.nodes(); ++n)
       frame.displacement.emplace_back(displacement.segment<3>(3 * n));
-    std::vector<double> area(specimen.skin.size(), 0.0);
+    std::vector<double> area(specimen.outer_surface.size(), 0.0);
     const geometry::Surface& surface = specimen.surface->surface();
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       for (const int vertex : surface.triangles[t])
@@ -327,7 +328,7 @@ class Press {
     for (const mechanics::SphereContact& contact : touch_.contacts)
       for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
         const auto vertex = as_index(contact.load.vertices[k]);
-        frame.contact_pressure[as_index(specimen.skin[vertex])] +=
+        frame.contact_pressure[as_index(specimen.outer_surface[vertex])] +=
             contact.force * contact.load.shares[k] / area[vertex];
       }
     record_.frames.push_back(std::move(frame));
@@ -342,10 +343,10 @@ class Press {
   Vec3 first_ =
       Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
   mechanics::Touch touch_;
-  double kept_force_ = 0.0;       // N, during a slide
-  double folded_at_ = -1.0;       // m, travel with the first inverted tetrahedron; below 0: none
-  double edge_share_ = 0.0;       // largest ratio of edge reaction to contact force
-  double deepest_sinking_ = 0.0;  // m, with `contact.spread = "nearest_node"`
+  double kept_force_ = 0.0;  // N, during a slide
+  double folded_at_ = -1.0;  // m, travel with the first inverted tetrahedron; below 0: none
+  double edge_share_ = 0.0;  // largest ratio of edge reaction to contact force
+  double deepest_surface_displacement_ = 0.0;  // m, with `contact.spread = "nearest_node"`
   double time_ = 0.0;
   int step_ = 1;
   bool on_crease_ = false;

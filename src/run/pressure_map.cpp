@@ -24,8 +24,8 @@ const geometry::Surface& skin_of(const scene::Scene& scene) {
 }
 
 // Twice the area of a triangle seen from above, m^2; 0 if it faces downwards.
-double seen_from_above(const geometry::Surface& skin, std::size_t triangle) {
-  return std::max(0.0, geometry::twice_area(skin, static_cast<int>(triangle)).z());
+double seen_from_above(const geometry::Surface& outer_surface, std::size_t triangle) {
+  return std::max(0.0, geometry::twice_area(outer_surface, static_cast<int>(triangle)).z());
 }
 
 // Values of one contact at all vertices of the surface.
@@ -35,11 +35,11 @@ struct Nodes {
   std::vector<double> area;  // m^2, the vertex's share, seen from above
   std::vector<double> gap;   // m
 
-  Nodes(const geometry::Surface& skin, const mechanics::SphereContact& contact)
-      : force(skin.vertices.size(), Vec3::Zero()),
-        down(skin.vertices.size(), 0.0),
-        area(skin.vertices.size(), 0.0),
-        gap(skin.vertices.size(), outside) {
+  Nodes(const geometry::Surface& outer_surface, const mechanics::SphereContact& contact)
+      : force(outer_surface.vertices.size(), Vec3::Zero()),
+        down(outer_surface.vertices.size(), 0.0),
+        area(outer_surface.vertices.size(), 0.0),
+        gap(outer_surface.vertices.size(), outside) {
     for (std::size_t k = 0; k < contact.load.vertices.size(); ++k) {
       const auto vertex = as_index(contact.load.vertices[k]);
       const Vec3 push = contact.force * contact.nodal.push[k];
@@ -48,8 +48,9 @@ struct Nodes {
     }
     for (std::size_t k = 0; k < contact.nodal.vertices.size(); ++k)
       gap[as_index(contact.nodal.vertices[k])] = contact.nodal.gap[k];
-    for (std::size_t t = 0; t < skin.triangles.size(); ++t)
-      for (const int v : skin.triangles[t]) area[as_index(v)] += seen_from_above(skin, t) / 6.0;
+    for (std::size_t t = 0; t < outer_surface.triangles.size(); ++t)
+      for (const int v : outer_surface.triangles[t])
+        area[as_index(v)] += seen_from_above(outer_surface, t) / 6.0;
   }
 };
 
@@ -81,23 +82,23 @@ void raster(const std::array<Vec3, 3>& corners, const record::PressureMap& map, 
     }
 }
 
-void draw(const geometry::Surface& skin, const mechanics::SphereContact& contact,
+void draw(const geometry::Surface& outer_surface, const mechanics::SphereContact& contact,
           record::PressureMap& map) {
-  const Nodes nodes(skin, contact);
+  const Nodes nodes(outer_surface, contact);
   const int across = map.width * samples;
   std::vector<char> taken(as_index(across * map.height * samples), 0);
   std::vector<Vec3> traction_sum(map.pressure.size(), Vec3::Zero());
   std::vector<double> pressure_sum(map.pressure.size(), 0.0);
-  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-    if (seen_from_above(skin, t) <= 0.0) continue;
+  for (std::size_t t = 0; t < outer_surface.triangles.size(); ++t) {
+    if (seen_from_above(outer_surface, t) <= 0.0) continue;
     std::array<Vec3, 3> corners;
     std::array<Vec3, 3> traction;
     std::array<double, 3> pressure{};
     std::array<double, 3> gap{};
     double widest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto v = as_index(skin.triangles[t][i]);
-      corners[i] = skin.vertices[v];
+      const auto v = as_index(outer_surface.triangles[t][i]);
+      corners[i] = outer_surface.vertices[v];
       traction[i] = nodes.force[v] / nodes.area[v];
       pressure[i] = nodes.down[v] / nodes.area[v];
       gap[i] = nodes.gap[v];
@@ -217,17 +218,17 @@ struct View {
 // The vertical gap between finger and tissue, m: the parabolic height of the spheres above the
 // curved tissue, minus the depth, plus the displacement of the half-space or layer; 0 in contact.
 double gap(const std::vector<View>& views, const scene::Scene& scene,
-           const std::optional<contact::LayerSinking>& layer, double x, double y) {
+           const std::optional<contact::LayerSurfaceDisplacement>& layer, double x, double y) {
   double least = std::numeric_limits<double>::infinity();
-  double sinking = 0.0;
+  double surface_displacement = 0.0;
   for (const View& view : views) {
     const double r = view.arm(x, y).norm();
     const double modulus = scene.finger.sphere_modulus;
-    sinking +=
-        contact::half_space_sinking(r, view.contact->force, view.contact->patch.radius(), modulus);
+    surface_displacement += contact::half_space_surface_displacement(
+        r, view.contact->force, view.contact->patch.radius(), modulus);
     if (layer)
-      sinking -= view.contact->force * layer->gamma(r / scene.layer->thickness) /
-                 (std::numbers::pi * modulus * scene.layer->thickness);
+      surface_displacement -= view.contact->force * layer->gamma(r / scene.layer->thickness) /
+                              (std::numbers::pi * modulus * scene.layer->thickness);
   }
   const double sphere = scene.finger.sphere_radius;
   for (const View& view : views) {
@@ -236,14 +237,13 @@ double gap(const std::vector<View>& views, const scene::Scene& scene,
     const double own = r * r * (0.5 / sphere + 0.5 * view.contact->law.mean_curvature);
     least = std::min(least, own - view.contact->depth);
   }
-  return std::isfinite(least) ? std::max(0.0, least + sinking)
+  return std::isfinite(least) ? std::max(0.0, least + surface_displacement)
                               : std::numeric_limits<double>::infinity();
 }
 
 // How the layer sinks around a contact, as far as the map reaches.
-std::optional<contact::LayerSinking> sinking_of_layer(const std::vector<View>& views,
-                                                      const scene::Scene& scene,
-                                                      const record::PressureMap& map) {
+std::optional<contact::LayerSurfaceDisplacement> surface_displacement_of_layer(
+    const std::vector<View>& views, const scene::Scene& scene, const record::PressureMap& map) {
   if (!scene.layer) return {};
   double farthest = 0.0;  // m; at a corner
   for (const View& view : views)
@@ -255,7 +255,7 @@ std::optional<contact::LayerSinking> sinking_of_layer(const std::vector<View>& v
       }
   const contact::Layer layer =
       scene::layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
-  return contact::LayerSinking(layer, farthest / scene.layer->thickness);
+  return contact::LayerSurfaceDisplacement(layer, farthest / scene.layer->thickness);
 }
 
 constexpr int longest = 128;  // pixels of a map
@@ -310,7 +310,8 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
     draw_nodes(scene, touch, map);
     return map;
   }
-  const std::optional<contact::LayerSinking> layer = sinking_of_layer(views, scene, map);
+  const std::optional<contact::LayerSurfaceDisplacement> layer =
+      surface_displacement_of_layer(views, scene, map);
   for (int row = 0; row < map.height; ++row) {
     for (int column = 0; column < map.width; ++column) {
       const double x = map.origin.x() + column * map.pitch;
@@ -335,27 +336,27 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
   return map;
 }
 
-record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach, double force,
-                             const Vec3& finger) {
+record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surface, double reach,
+                             double force, const Vec3& finger) {
   record::PressureMap map;
-  if (skin.triangles.empty() || !(reach > 0.0)) map = empty_map(finger);
+  if (outer_surface.triangles.empty() || !(reach > 0.0)) map = empty_map(finger);
   map.contact_force = force;
-  if (skin.triangles.empty() || !(reach > 0.0)) return map;
+  if (outer_surface.triangles.empty() || !(reach > 0.0)) return map;
   Vec3 low = Vec3::Constant(outside);
   Vec3 high = -low;
-  for (const solid::Indenter& indenter : skin.finger) {
+  for (const solid::Indenter& indenter : outer_surface.finger) {
     low = low.cwiseMin(indenter.pole - Vec3::Constant(margin * reach));
     high = high.cwiseMax(indenter.pole + Vec3::Constant(margin * reach));
   }
-  lay_out(low, high, skin.finger.front().pole.z(), map);
+  lay_out(low, high, outer_surface.finger.front().pole.z(), map);
   const auto pixels = as_index(map.width * map.height);
   const int across = map.width * samples;
   std::vector<char> taken(as_index(across * map.height * samples), 0);
   std::vector<double> sums(pixels, 0.0);
   std::vector<Vec3> tractions(pixels, Vec3::Zero());
   map.gap.assign(pixels, std::numeric_limits<float>::infinity());
-  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-    const std::array<Vec3, 3>& triangle = skin.triangles[t];
+  for (std::size_t t = 0; t < outer_surface.triangles.size(); ++t) {
+    const std::array<Vec3, 3>& triangle = outer_surface.triangles[t];
     const Vec3 twice = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     if (twice.z() <= 0.0) continue;
     raster(triangle, map, [&](int i, int j, const std::array<double, 3>& weights) {
@@ -367,9 +368,9 @@ record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach,
       double lift = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
         place += weights[k] * triangle[k];
-        lift += weights[k] * skin.lifts[t][k];
+        lift += weights[k] * outer_surface.lifts[t][k];
       }
-      for (const solid::Indenter& indenter : skin.finger) {
+      for (const solid::Indenter& indenter : outer_surface.finger) {
         const auto here = indenter.at(place);
         const auto gap = indenter.gap(place);
         if (!here || !gap) continue;

@@ -14,7 +14,7 @@ namespace palpate::run {
 
 // The same of a solid. The pressure goes with the overlap of the balls and the displaced surface,
 // as the solid's own does, and integrates to `force` (N); `reach` (m) is the radius of the contact.
-[[nodiscard]] record::PressureMap draw_map(const solid::FingerPress::Skin& skin, double reach,
-                                           double force, const Vec3& finger);
+[[nodiscard]] record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surface,
+                                           double reach, double force, const Vec3& finger);
 
 }  // namespace palpate::run

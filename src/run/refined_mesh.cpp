@@ -123,9 +123,9 @@ class Refining {
                         .wanted = scene::refined_share * press.solver.tolerance};
     const double base_level = shape.base_level;
     const auto take = [&](geometry::TetMesh mesh) {
-      std::string remark = std::move(shape.remark);
+      std::string warning = std::move(shape.warning);
       shape = scene::shape_of(std::move(mesh), base_level);
-      shape.remark = std::move(remark);
+      shape.warning = std::move(warning);
     };
     if (std::isfinite(longest_)) {
       const scene::Scene scene = scene_with(shape);

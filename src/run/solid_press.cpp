@@ -45,7 +45,7 @@ void SolidPress::make() {
   for (;;) {
     width_ = scene_->finger.centres.size() > 1
                  ? 1.0
-                 : scene::width_on_edge(*body().skin, body().first_touch,
+                 : scene::width_on_edge(*body().outer_surface, body().first_touch,
                                         scene_->finger.sphere_radius, deepest_);
     try {
       presses_.clear();
@@ -118,7 +118,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.base_up = scenario.tissue.base_up;
   body.mirrored = {true, true};
   body.per_radius = per_radius / std::clamp(width_, solid::most_narrowed, 1.0);
-  order.skin = given.skin.get();
+  order.outer_surface = given.outer_surface.get();
   order.centres = finger.centres;
   order.radius = finger.sphere_radius;
   if (scenario.finger.elastic) {
@@ -207,10 +207,11 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
   if (inclusion_size_ < 1.0)
-    record.remarks.push_back("an inclusion that touches a border is meshed with a radius that is " +
-                             percent_text(1.0 - inclusion_size_) + " smaller");
+    record.warnings.push_back(
+        "an inclusion that touches a border is meshed with a radius that is " +
+        percent_text(1.0 - inclusion_size_) + " smaller");
   if (flat_)
-    record.remarks.push_back(
+    record.warnings.push_back(
         "the smooth surface through the vertices of the file cannot be meshed, so that its "
         "triangles "
         "are taken as they are; a finer surface has less of a difference between the two");
@@ -238,10 +239,10 @@ geometry::TetMesh SolidPress::corners() const {
 record::PressureMap SolidPress::map(const mechanics::Touch& touch) {
   Vec3 place = touch.finger - body().first_touch;
   place.z() = 0.0;
-  solid::FingerPress::Skin skin;
-  if (!touch.contacts.empty()) skin = presses_.back()->skin_at(touch.travel, place);
+  solid::FingerPress::OuterSurface outer_surface;
+  if (!touch.contacts.empty()) outer_surface = presses_.back()->surface_at(touch.travel, place);
   const double force = touch.contacts.empty() ? 0.0 : touch.normal_force();
-  return draw_map(skin, now_.contact_radius, force, touch.finger);
+  return draw_map(outer_surface, now_.contact_radius, force, touch.finger);
 }
 
 }  // namespace palpate::run

@@ -73,7 +73,7 @@ class Checker {
           reached.in_order)
         problem(path + ".keep",
                 "`slide` has no force to keep, for the finger does not press yet; put an `indent` "
-                "before it, or write `keep = \"travel\"`");
+                "before it, or write `keep = \"displacement\"`");
     }
   }
 
@@ -244,7 +244,7 @@ class Checker {
         problem(
             "region." + std::to_string(i + 1),
             "a `slab` is for a finger that comes from above; use a `tagged` region of a mesh, or "
-            "leave out `" +
+            "remove `" +
                 std::string(aside) + "`");
   }
 
@@ -283,11 +283,11 @@ class Checker {
 
   void methods() {
     const Solver& solver = scenario_.solver;
-    const Rung* const given = solver.model ? &rung(*solver.model) : nullptr;
+    const ModelTraits* const given = solver.model ? &traits(*solver.model) : nullptr;
     if (given != nullptr && !given->uniform && scenario_.uniform())
       problem("solver.model", "`" + std::string(given->word) +
                                   "` has no specimen to creep or relax; set " +
-                                  models_that(std::mem_fn(&Rung::uniform)));
+                                  models_that(std::mem_fn(&ModelTraits::uniform)));
     viscosity();
     if (scenario_.contact.depth == Contact::Depth::neo_hookean && !scenario_.uniform() &&
         contact::mesh_is_tissue(scenario_.contact.coupling))
@@ -315,17 +315,17 @@ class Checker {
     if (solver.integrator == Integrator::quasi_static &&
         scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag)
       problem("solver.integrator",
-              "`quasi_static` has no drag against the ground; set "
+              "`quasi_static` has no nodal drag; set "
               "`solver.integrator = \"backward_difference\"` or another "
               "viscosity");
   }
 
   // Checks a model with a mesh that the scenario names.
-  void springs(const Rung& model) {
+  void springs(const ModelTraits& model) {
     const Solver& solver = scenario_.solver;
     const bool volume = solver.volume.value_or(Solver::Volume::none) != Solver::Volume::none;
-    const std::string coupled = models_that(std::mem_fn(&Rung::coupled));
-    const std::string independent = models_that(std::mem_fn(&Rung::independent));
+    const std::string coupled = models_that(std::mem_fn(&ModelTraits::coupled));
+    const std::string independent = models_that(std::mem_fn(&ModelTraits::independent));
     if (model.independent() && volume && poisson_ratio_ < 0.2)
       problem("solver.volume",
               "below a Poisson's ratio of 0.2 independent springs, which have 1/4, would need a "
@@ -354,10 +354,10 @@ class Checker {
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
       const auto* slide = std::get_if<Slide>(&scenario_.steps[i]);
       if (slide == nullptr) continue;
-      const std::string meshed = models_that(std::mem_fn(&Rung::meshed));
+      const std::string meshed = models_that(std::mem_fn(&ModelTraits::meshed));
       if (slide->keep == Slide::Keep::force)
         problem("step." + std::to_string(i + 1) + ".keep",
-                "`solid` slides at a depth; write `keep = \"travel\"`, or set " + meshed);
+                "`solid` slides at a depth; write `keep = \"displacement\"`, or set " + meshed);
       if (scenario_.contact.friction > 0.0)
         problem("contact.friction",
                 "`solid` slides without friction; leave `friction` out, or set " + meshed);
@@ -393,7 +393,7 @@ class Checker {
       const auto* slide = std::get_if<Slide>(&scenario_.steps[i]);
       if (slide != nullptr && slide->keep == Slide::Keep::force)
         problem("step." + std::to_string(i + 1) + ".keep",
-                "a slide cannot keep a force that relaxes; write `keep = \"travel\"`, or "
+                "a slide cannot keep a force that relaxes; write `keep = \"displacement\"`, or "
                 "`contact.viscosity = \"none\"`");
     }
   }

@@ -15,7 +15,7 @@ namespace palpate::scenario {
 
 // `samples` points of the Sobol sequence in [0, 1)^dimensions, one row per point, with the
 // direction numbers of Joe and Kuo (SIAM J. Sci. Comput. 30, 2635, 2008), in the order of Gray
-// codes, not scrambled. The first point, the origin, is left out: the sequence begins with (1/2,
+// codes, not scrambled. The first point, the origin, is excluded: the sequence begins with (1/2,
 // 1/2, ...). 1 <= dimensions <= most_sobol_dimensions.
 [[nodiscard]] std::vector<double> sobol_points(std::size_t samples, std::size_t dimensions);
 inline constexpr std::size_t most_sobol_dimensions = 3667;

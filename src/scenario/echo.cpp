@@ -38,7 +38,7 @@ A key has a list of values, or a range. A range includes both ends, which are wr
 | `list` | The first values of all keys, then the second ones, and so on: lists of one length. |
 | `csv` | One case per row of a table. |
 | `lhs` | A Latin hypercube: each range is divided into `samples` equal parts, each of which contains one case, at a random place. |
-| `sobol` | The Sobol sequence, which fills the space more evenly; its first point, the origin, is left out, and nothing is scrambled. Most even with 2^k - 1 `samples`. |
+| `sobol` | The Sobol sequence, which fills the space more evenly; its first point, the origin, is excluded, and nothing is scrambled. Most even with 2^k - 1 `samples`. |
 | `saltelli` | For first-order and total Sobol indices: of `d` keys, `samples` times d + 2 cases. Two independent points A and B of a Sobol sequence in 2 d dimensions, then A with one key of B after the other: A, B, A_B^1 ... A_B^d. |
 
 In the last three designs a key has a range without `points`, or a list whose values get equal shares of the cases. A Latin hypercube is drawn by the 64-bit Mersenne twister of the C++ standard, the same on every machine: for one key after the other, first the order of its parts, by exchanging the last with one drawn before it or itself and so on down to the second, then a place in each from the upper 29 bits of a number.

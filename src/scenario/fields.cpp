@@ -27,22 +27,23 @@ using namespace words;
 Conditions::Conditions(const Scenario& scenario) {
   const bool meshed = scenario.meshed();
   const std::optional<Model>& model = scenario.solver.model;
-  const std::string when = !meshed && !model ? "on another `tissue.shape` than `half_space`"
-                                             : "with " + models_that(std::mem_fn(&Rung::meshed));
+  const std::string when = !meshed && !model
+                               ? "on another `tissue.shape` than `half_space`"
+                               : "with " + models_that(std::mem_fn(&ModelTraits::meshed));
   mesh = {meshed, when, Use::Otherwise::note};
   mesh_physics = {meshed, when};
-  springs = meshed
-                ? Use{!model || rung(*model).independent(),
-                      "with " + models_that(std::mem_fn(&Rung::independent)), Use::Otherwise::note}
-                : mesh;
-  based = model && rung(*model).thickness ? Use{} : mesh;
-  formula = {!model || rung(*model).formula(), "with " + models_that(std::mem_fn(&Rung::formula)),
-             Use::Otherwise::note};
+  springs = meshed ? Use{!model || traits(*model).independent(),
+                         "with " + models_that(std::mem_fn(&ModelTraits::independent)),
+                         Use::Otherwise::note}
+                   : mesh;
+  based = model && traits(*model).thickness ? Use{} : mesh;
+  formula = {!model || traits(*model).formula(),
+             "with " + models_that(std::mem_fn(&ModelTraits::formula)), Use::Otherwise::note};
   // If steps of both kinds are mixed, the mixture is reported instead of the keys of the finger.
   const bool presses = !std::all_of(scenario.steps.begin(), scenario.steps.end(), loads_end_faces);
   finger = {presses || scenario.steps.empty(),
             "by steps with a finger (indent, hold, retract, slide)"};
-  held = (model ? rung(*model).sides : meshed) ? finger : mesh;
+  held = (model ? traits(*model).sides : meshed) ? finger : mesh;
   pressed_mesh = meshed ? Use{finger.used, finger.when, Use::Otherwise::note} : mesh;
 }
 
@@ -202,7 +203,7 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
                output.pressure_maps);
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
-  visitor.flag({"report", "A page with answer, figures and findings, `report.html`."},
+  visitor.flag({"report", "A page with the result, figures and findings, `report.html`."},
                output.report);
   visitor.choice({"paper",
                   "Which figure of Chen 2007 the page sets its results beside.",
@@ -507,7 +508,7 @@ bool PlainScenario::uniform() const {
 }
 
 bool Scenario::meshed() const {
-  return solver.model ? rung(*solver.model).meshed()
+  return solver.model ? traits(*solver.model).meshed()
                       : !std::holds_alternative<HalfSpace>(tissue.shape);
 }
 

@@ -66,7 +66,7 @@ std::optional<std::string> compression_problem(const Scenario& scenario, const C
   if (scenario.solver.kinematics == Solver::Kinematics::nonlinear)
     return is + "for small strain; leave `solver.kinematics` out";
   if (scenario.tissue.viscosity == tissue::Viscosity::nodal_drag)
-    return is + "without drag against the ground; write another `tissue.viscosity`";
+    return is + "without nodal drag; write another `tissue.viscosity`";
   if (compress.platen != upper_platen(scenario) ||
       (compress.platen == tissue::Base::bonded &&
        !std::all_of(scenario.steps.begin(), scenario.steps.end(),

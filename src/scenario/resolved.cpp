@@ -16,7 +16,7 @@ void fill(std::optional<double>& value, const std::optional<material::Sourced>& 
 
 // Whether the model uses the Poisson's ratios of regions; springs without a volume term do not.
 bool honours_ratios(const Solver& solver) {
-  return !solver.model || !rung(*solver.model).independent() ||
+  return !solver.model || !traits(*solver.model).independent() ||
          solver.volume.value_or(Solver::Volume::none) != Solver::Volume::none;
 }
 
@@ -43,12 +43,12 @@ Resolved::Contact resolve_contact(const Scenario& asked, const Found& found) {
   using Viscosity = Contact::Viscosity;
   const Contact& contact = asked.contact;
   const bool linear = asked.solver.kinematics == Solver::Kinematics::linear;
-  return {
-      contact,
-      found.viscosity_matters ? contact.viscosity.value_or(Viscosity::none) : Viscosity::none,
-      contact.depth.value_or(found.depth_matters ? Contact::Depth::neo_hookean
-                                                 : Contact::Depth::hertz),
-      contact.direction.value_or(linear ? Contact::Direction::skin : Contact::Direction::sphere)};
+  return {contact,
+          found.viscosity_matters ? contact.viscosity.value_or(Viscosity::none) : Viscosity::none,
+          contact.depth.value_or(found.depth_matters ? Contact::Depth::neo_hookean
+                                                     : Contact::Depth::hertz),
+          contact.direction.value_or(linear ? Contact::Direction::surface
+                                            : Contact::Direction::sphere)};
 }
 
 // Whether the mesh's motion cannot reach the force of a press, whatever the integrator, so that it
@@ -62,15 +62,16 @@ bool motion_is_for_show(const Scenario& asked) {
           asked.tissue.viscosity == tissue::Viscosity::kelvin_voigt);
 }
 
-Resolved::Solver resolve_solver(const Scenario& asked, const Rung& rung, const Found& found) {
+Resolved::Solver resolve_solver(const Scenario& asked, const ModelTraits& traits,
+                                const Found& found) {
   using Integrator = Solver::Integrator;
   const bool drag = asked.tissue.viscosity == tissue::Viscosity::nodal_drag;
   // A uniform test is its law of time; inertia comes with an integrator that is named.
   const bool law_alone = asked.uniform() ? !asks_for_steps(asked.solver)
                                          : !found.inertia_matters || motion_is_for_show(asked);
-  const bool still = rung.meshed() && (asked.contact.coupling == contact::Coupling::resolved ||
-                                       (!drag && law_alone));
-  return {asked.solver, rung.of, asked.solver.volume.value_or(rung.volume),
+  const bool still = traits.meshed() && (asked.contact.coupling == contact::Coupling::resolved ||
+                                         (!drag && law_alone));
+  return {asked.solver, traits.of, asked.solver.volume.value_or(traits.volume),
           asked.solver.integrator.value_or(still ? Integrator::quasi_static
                                                  : Integrator::central_difference)};
 }
@@ -122,7 +123,7 @@ Resolved resolve(const Case& one, Model model, const Found& found) {
                     {},
                     {all.finger, all.finger.density.value_or(0.0), {}},
                     resolve_contact(all, found),
-                    resolve_solver(all, rung(model), found)};
+                    resolve_solver(all, traits(model), found)};
   for (const Region& region : all.regions)
     resolved.regions.push_back({region,
                                 {*region.density, *region.young_modulus,

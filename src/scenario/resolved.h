@@ -32,7 +32,7 @@ struct Resolved : PlainScenario {
   struct Contact : PlainContact {
     Viscosity viscosity = Viscosity::none;
     Depth depth = Depth::hertz;
-    Direction direction = Direction::skin;
+    Direction direction = Direction::surface;
   };
   struct Solver : PlainSolver {
     Model model = Model::hertz;
@@ -45,7 +45,7 @@ struct Resolved : PlainScenario {
   Contact contact;
   Solver solver;
 
-  [[nodiscard]] bool meshed() const { return rung(solver.model).meshed(); }
+  [[nodiscard]] bool meshed() const { return traits(solver.model).meshed(); }
 };
 
 // Results of the choice of a model on which open keys depend. By default nothing was evaluated.

@@ -16,7 +16,7 @@
 #include "geometry/curvature.h"
 #include "geometry/shapes.h"
 #include "integrate/central_difference.h"
-#include "scenario/rungs.h"
+#include "scenario/model_traits.h"
 #include "tissue/coupled.h"
 #include "tissue/stiffness.h"
 #include "tissue/supports.h"
@@ -196,7 +196,7 @@ struct PlainContact {
   enum class CurvatureOn { rest, deformed };
   enum class Viscosity { none, tissue };
   enum class Depth { hertz, neo_hookean };
-  enum class Direction { skin, sphere };
+  enum class Direction { surface, sphere };
   enum class Spread { pressure, nearest_node };
   enum class Slip { mindlin, coulomb };
   contact::CurvatureLaw law = contact::CurvatureLaw::elliptic;
@@ -266,12 +266,12 @@ struct Retract {
   double rate = 0.005;  // m/s
 };
 struct Slide {
-  enum class Keep { travel, force };
+  enum class Keep { displacement, force };
   static constexpr Word word{"slide", "Move sideways at the same depth or the same force."};
   double by = 0.010;       // m
   double rate = 0.005;     // m/s
   double direction = 0.0;  // degrees from x towards y
-  Keep keep = Keep::travel;
+  Keep keep = Keep::displacement;
 };
 struct Creep {
   static constexpr Word word{

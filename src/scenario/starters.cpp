@@ -25,7 +25,7 @@ radius = "11 mm"
 
 [[step]]
 kind = "indent"
-to   = "2 mm"                  # a travel, or a force such as "0.5 N"
+to   = "2 mm"                  # a displacement, or a force such as "0.5 N"
 rate = "5 mm/s"
 
 [[step]]

@@ -54,7 +54,7 @@ const char* const poisson_in_contact_only_text =
 
 bool poisson_in_contact_only(const Scenario& scenario) {
   const Solver& solver = scenario.solver;
-  return solver.model && rung(*solver.model).independent() &&
+  return solver.model && traits(*solver.model).independent() &&
          solver.volume.value_or(Solver::Volume::none) == Solver::Volume::none;
 }
 
@@ -86,7 +86,7 @@ std::vector<std::string> unread_keys(const Family& family, std::size_t i, Solver
   std::vector<Setting> settings = family.design.settings(i);
   Node model;
   model.kind = Node::Kind::text;
-  model.text = rung(chosen).word;
+  model.text = traits(chosen).word;
   settings.push_back({"solver.model", {}, model, {}});
   Sources sources{family.folder, family.library};
   const Made made = make(family, settings, sources);

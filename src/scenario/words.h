@@ -35,7 +35,7 @@ inline constexpr auto papers =
 inline constexpr auto meshes_at = words_of<Output::Meshes>(
     {{"steps", "the end of every step"}, {"rows", "every row of the CSV files"}});
 inline constexpr auto keeps =
-    words_of<Slide::Keep>({{"travel", "the depth"}, {"force", "the force"}});
+    words_of<Slide::Keep>({{"displacement", "the depth"}, {"force", "the force"}});
 inline constexpr auto laws =
     words_of<contact::CurvatureLaw>({{"elliptic", "both principal curvatures, exactly"},
                                      {"geometric", "a circle with R = 1 / sqrt(k_1 k_2)"},
@@ -71,13 +71,13 @@ inline constexpr auto depths = words_of<Contact::Depth>(
     {{"hertz", "h^(3/2), however deep"},
      {"neo_hookean", "the force times the factor of a deep press into neo-Hookean tissue"}});
 inline constexpr Word auto_directions{
-    "auto", "`skin` with linear kinematics, `sphere` with nonlinear ones"};
+    "auto", "`surface` with linear kinematics, `sphere` with nonlinear ones"};
 inline constexpr auto directions = words_of<Contact::Direction>(
-    {{"skin", "the surface's normals at rest, consistent with small strains"},
+    {{"surface", "the surface's normals at rest, consistent with small strains"},
      {"sphere", "the sphere's normals at the displaced nodes"}});
 inline constexpr Word auto_models{
     "auto", "the cheapest model that meets `tolerance`, one for all cases of a sweep"};
-inline constexpr Words<Model, ladder.size()> models(ladder);
+inline constexpr Words<Model, model_table.size()> models(model_table);
 inline constexpr Word auto_volumes{"auto",
                                    "`nodal` with `coupled_springs`, `none` with `mass_spring`"};
 inline constexpr auto volumes =

@@ -47,7 +47,7 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
   double sum = 0.0;
   for (std::size_t j = 0; j < load.vertices.size(); ++j)
     sum += load.shares[j] * load.shares[j] /
-           specimen.network.node_mass[as_index(specimen.skin[as_index(load.vertices[j])])];
+           specimen.network.node_mass[as_index(specimen.outer_surface[as_index(load.vertices[j])])];
   return {sum * scene.finger.force_factor *
               contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus),
           sum};
@@ -69,7 +69,7 @@ ContactRate contact_rate(const Scene& scene) {
   // three radii.
   constexpr double stiffened = 3.0;
   constexpr double damped = 1.2;
-  const double spacing = contact::SkinSpacing(*scene.specimen->surface)
+  const double spacing = contact::SurfaceSpacing(*scene.specimen->surface)
                              .at({.at = first_touch(scene).at, .position = {}, .beyond = {}});
   ContactRate most;
   for (double depth = deepest; depth > 1e-3 * deepest; depth *= 0.5) {
@@ -151,7 +151,7 @@ struct SpringMaker {
   const tissue::SpringFit* fit;  // null for `van_gelder` and coupled springs
   std::vector<double> densities;
 
-  [[nodiscard]] bool coupled() const { return scenario::rung(scenario->solver.model).coupled(); }
+  [[nodiscard]] bool coupled() const { return scenario::traits(scenario->solver.model).coupled(); }
   [[nodiscard]] tissue::Volume volume() const { return scenario->solver.volume; }
 
   // Independent springs. finish() then multiplies them by `factor` and adds the volume term.
@@ -234,11 +234,11 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   const SpecimenShape& shape = shapes.shape(scenario, folder);
   specimen->mesh = shape.mesh;
   specimen->refined = shape.refined;
-  const scenario::Rung& rung = scenario::rung(scenario.solver.model);
+  const scenario::ModelTraits& traits = scenario::traits(scenario.solver.model);
   specimen->law = scenario.tissue.law;
   if (scenario.solver.kinematics == scenario::Solver::Kinematics::nonlinear)
     specimen->kinematics =
-        rung.coupled() ? tissue::Kinematics::squared : tissue::Kinematics::nonlinear;
+        traits.coupled() ? tissue::Kinematics::squared : tissue::Kinematics::nonlinear;
   specimen->base = scenario.tissue.base;
   measure_size(*specimen);
   const double top = specimen->high.z();
@@ -255,7 +255,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   const bool platens =
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
   const bool fitted =
-      rung.independent() && scenario.solver.stiffness == tissue::StiffnessRule::fitted;
+      traits.independent() && scenario.solver.stiffness == tissue::StiffnessRule::fitted;
   make_springs(
       {&scenario, &specimen->mesh, fitted ? &shapes.fit(scenario, folder) : nullptr,
        densities_of(scenario)},
@@ -273,8 +273,8 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
         specimen->mesh, specimen->base, top, scenario::upper_platen(scenario));
   }
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height, up);
-  specimen->skin = shape.skin;
-  specimen->remark = shape.remark;
+  specimen->outer_surface = shape.outer_surface;
+  specimen->warning = shape.warning;
   specimen->surface.emplace(shape.surface);
   return specimen;
 }
@@ -328,7 +328,7 @@ void refuse_sliding(const Scene& scene, const scenario::Family& family) {
   constexpr double steepest = 3.0;  // degrees; less is the uncertainty of a triangulated surface
   const SurfaceTouch& touch = scene.choice.touch;
   if (scene.scenario.uniform() || scene.scenario.tissue.base != tissue::Base::frictionless ||
-      scenario::rung(scene.scenario.solver.model).formula() || !touch.known() ||
+      scenario::traits(scene.scenario.solver.model).formula() || !touch.known() ||
       touch.inclination() <= steepest)
     return;
   throw InputError(
@@ -348,16 +348,16 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family) {
   const auto reason = beyond(scenario.solver.model, scenario, touch);
   if (!reason) return;
   if (touch.nowhere) throw MeshError(*reason);
-  if (scenario::rung(scenario.solver.model).solid && scenario.finger.spheres > 1 &&
+  if (scenario::traits(scenario.solver.model).solid && scenario.finger.spheres > 1 &&
       scenario.finger.calibration == finger::Calibration::force)
     throw InputError(place_of(family.document, "finger.spheres"),
                      "`solid` presses with every sphere, but " + *reason +
                          "; write `calibration = \"mass\"`, or `spheres = 1`");
-  const scenario::Rung* remedy = &scenario::strongest;
-  for (const scenario::Rung& other : scenario::ladder)
+  const scenario::ModelTraits* remedy = &scenario::strongest;
+  for (const scenario::ModelTraits& other : scenario::model_table)
     if (!other.solid && !beyond(other.of, scenario, touch)) remedy = &other;
   throw InputError(place_of(family.document, "solver.model"),
-                   "`" + std::string(scenario::rung(scenario.solver.model).word) +
+                   "`" + std::string(scenario::traits(scenario.solver.model).word) +
                        "` cannot compute this scene: " + *reason + "; set `solver.model = \"" +
                        remedy->word + "\"`");
 }
@@ -389,23 +389,23 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   }
   if (std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape)) {
     if (scene.specimen) refuse_outside(scenario, scene.specimen->surface->surface(), family);
-    if (scene.solid) refuse_outside(scenario, scene.solid->skin->surface(), family);
+    if (scene.solid) refuse_outside(scenario, scene.solid->outer_surface->surface(), family);
   }
   return scene;
 }
 
 const Forecast* Choice::forecast(scenario::Model model) const {
-  for (const Forecast& rung : rungs)
-    if (rung.model == model && rung.cannot.empty()) return &rung;
+  for (const Forecast& forecast : forecasts)
+    if (forecast.model == model && forecast.cannot.empty()) return &forecast;
   return nullptr;
 }
 
 std::string Choice::shortfall(std::optional<double> mesh_error) const {
-  const Forecast* rung = taken();
-  const double error = rung != nullptr ? rung->known(mesh_error) : 0.0;
+  const Forecast* forecast = taken();
+  const double error = forecast != nullptr ? forecast->known(mesh_error) : 0.0;
   if (given || !(error > chosen.solver.tolerance)) return "";
   return "no model is expected to be within the tolerance of " +
-         percent_text(chosen.solver.tolerance) + ": `" + scenario::rung(rung->model).word +
+         percent_text(chosen.solver.tolerance) + ": `" + scenario::traits(forecast->model).word +
          "` comes nearest with " + error_text(error) +
          (chosen.meshed() && !refines(chosen) ? "; a finer `tissue.mesh` may help" : "");
 }

@@ -33,16 +33,17 @@ std::vector<Vec3> places(const Scene& scene, double apart) {
 }
 
 // The side of a cell within `radius` (m) of a place, seen from above, or else of the nearest cell.
-double cell_at(const geometry::Surface& skin, const Vec3& place, double radius) {
+double cell_at(const geometry::Surface& outer_surface, const Vec3& place, double radius) {
   double sum = 0.0;
   int count = 0;
   double nearest = std::numeric_limits<double>::infinity();
   double area_there = 0.0;
-  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-    const Vec3 twice = geometry::twice_area(skin, static_cast<int>(t));
+  for (std::size_t t = 0; t < outer_surface.triangles.size(); ++t) {
+    const Vec3 twice = geometry::twice_area(outer_surface, static_cast<int>(t));
     if (twice.z() <= 0.0) continue;
     Vec3 centre = Vec3::Zero();
-    for (const int v : skin.triangles[t]) centre += skin.vertices[as_index(v)] / 3.0;
+    for (const int v : outer_surface.triangles[t])
+      centre += outer_surface.vertices[as_index(v)] / 3.0;
     const double distance = (centre - place).head<2>().norm();
     if (distance < nearest) {
       nearest = distance;

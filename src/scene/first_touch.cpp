@@ -29,7 +29,7 @@ FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& plac
   const std::span<const Vec3> centres = spheres.centres;
   const double radius = spheres.radius;
   contact::Detector detector(surface);
-  std::vector<geometry::SmoothSurface::Foot> feet;
+  std::vector<geometry::SmoothSurface::ClosestPoint> feet;
   double lowest = place.z();
   for (const Vec3& vertex : surface.surface().vertices) lowest = std::min(lowest, vertex.z());
   FirstTouch touch;
@@ -41,12 +41,12 @@ FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& plac
       Vec3 centre = touch.finger + centres[i];
       centre.z() = z + centres[i].z();
       detector.find(centre, radius, {}, feet);
-      for (const auto& foot : feet) {
-        if (radius - foot.height <= deepest) continue;
-        deepest = radius - foot.height;
+      for (const auto& closest_point : feet) {
+        if (radius - closest_point.height <= deepest) continue;
+        deepest = radius - closest_point.height;
         touch.sphere = static_cast<int>(i);
-        touch.at = foot.at;
-        touch.on_crease = foot.on_crease;
+        touch.at = closest_point.at;
+        touch.on_crease = closest_point.on_crease;
       }
     }
     return deepest > 0.0;

@@ -103,7 +103,7 @@ std::shared_ptr<const geometry::SmoothSurface> unturned(const scenario::Resolved
   if (file == nullptr) return nullptr;
   const geometry::TetMesh mesh = mesh_of(*file, folder).mesh;
   meshing::check(mesh, "the mesh of " + file->file, 0.0);
-  return std::make_shared<const geometry::SmoothSurface>(geometry::skin(mesh).surface);
+  return std::make_shared<const geometry::SmoothSurface>(geometry::outer_surface(mesh).surface);
 }
 
 // The height of the flat underside at `low`, with the rounding of a file; nothing where the lowest

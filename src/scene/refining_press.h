@@ -11,7 +11,7 @@ namespace palpate::scene {
 struct Refined {
   int start_nodes = 0;
   int rounds = 0;
-  double error = 0.0;   // stated, of the force, a fraction of it; docs/theory.md [sinking]
+  double error = 0.0;   // stated, of the force, a fraction of it; docs/theory.md [compliance]
   double wanted = 0.0;  // where refining may stop
 };
 

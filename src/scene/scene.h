@@ -30,9 +30,9 @@ struct Scene;
 // One of the first three gives the body; inclusions and layers of the scenario come on top.
 struct SolidBody {
   std::optional<geometry::Shape> shape;
-  std::shared_ptr<const geometry::SmoothSurface> surface;  // of a file
-  std::optional<geometry::TetMesh> mesh;                   // with the numbers of substances
-  std::shared_ptr<const geometry::SmoothSurface> skin;     // the surface of any of them
+  std::shared_ptr<const geometry::SmoothSurface> surface;        // of a file
+  std::optional<geometry::TetMesh> mesh;                         // with the numbers of substances
+  std::shared_ptr<const geometry::SmoothSurface> outer_surface;  // the surface of any of them
   double base_level = 0.0;          // m; the surface up to here along `tissue.base_up` is held
   Vec3 first_touch = Vec3::Zero();  // m, the finger's point there
   Vec3 touched = Vec3::Zero();      // m, the place of the surface there
@@ -41,8 +41,8 @@ struct SolidBody {
 // The substance of a part of a shape: 0 is the tissue, then the scenario's regions in order.
 [[nodiscard]] int substance_of(const scenario::Resolved& scenario, int part);
 
-// The finger's point and the place of the skin (m) at first touch, with the finger at a place (m)
-// beside that of the body; nothing where it passes beside the body.
+// The finger's point and the place of the surface (m) at first touch, with the finger at a place
+// (m) beside that of the body; nothing where it passes beside the body.
 [[nodiscard]] std::optional<std::pair<Vec3, Vec3>> touch_beside(const SolidBody& body,
                                                                 const Finger& finger,
                                                                 const Vec3& place);
@@ -99,7 +99,7 @@ struct Forecast {
 
   // The error with what the mesh at hand costs, if that is known.
   [[nodiscard]] double known(std::optional<double> mesh_error) const {
-    return mesh_error && !scenario::rung(model).formula() ? error - of_mesh + *mesh_error : error;
+    return mesh_error && !scenario::traits(model).formula() ? error - of_mesh + *mesh_error : error;
   }
 };
 
@@ -108,7 +108,7 @@ struct Choice {
   scenario::Resolved chosen;
   bool given = false;  // whether the scenario names the model
   std::vector<Question> questions;
-  std::vector<Forecast> rungs;  // cheapest first; empty if `one_way` alone decides the model
+  std::vector<Forecast> forecasts;  // cheapest first; empty if `one_way` alone decides the model
   scenario::Found found;
   double waves = 0.0;  // relative error of the force of every model without inertia
   // What would be taken if the scenario named no model, and what it would have.
@@ -167,9 +167,9 @@ struct Specimen {
   double base_height = 0.0;  // m; the surface up to this height is the base
   Vec3 low = Vec3::Zero();   // m, corners of the bounding box
   Vec3 high = Vec3::Zero();
-  std::vector<int> skin;  // the node of every vertex of `surface`
+  std::vector<int> outer_surface;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
-  std::string remark;                      // that of meshing::FileMesh, or empty
+  std::string warning;                     // that of meshing::FileMesh, or empty
   tissue::Uniaxial measured;               // E and nu of the network with the tissue everywhere
   tissue::Uniaxial pressed;                // response to platens, for a uniform test
   std::vector<char> held;                  // in a press and in creep
@@ -179,7 +179,7 @@ struct Specimen {
   [[nodiscard]] double height() const { return high.z() - low.z(); }
 };
 
-class SinkingStore;
+class SurfaceDisplacementStore;
 
 struct Scene {
   std::string name;
@@ -193,7 +193,8 @@ struct Scene {
   std::unique_ptr<SolidBody> solid;            // null for the others
   // The surface of the file; null for other shapes. A mesh may have a coarser one.
   std::shared_ptr<const geometry::SmoothSurface> of_file;
-  SinkingStore* sinkings = nullptr;              // of cases that share bodies; outlives the scene
+  SurfaceDisplacementStore* surface_displacements =
+      nullptr;                                   // of cases that share bodies; outlives the scene
   integrate::KnownModes* known_modes = nullptr;  // of a body that is run again; outlives the scene
 
   // From the top (without a mesh: the touch) to the base, m; infinite for shapes without size.

@@ -22,13 +22,13 @@ namespace {
 
 void find_touch(SolidBody& body, const Scene& scene) {
   const scenario::PlainFinger& finger = scene.scenario.finger;
-  const auto [low, high] = box_of(body.skin->surface().vertices);
+  const auto [low, high] = box_of(body.outer_surface->surface().vertices);
   const Vec3 middle = 0.5 * (low + high);
   const Vec3 place(finger.x.value_or(middle.x()), finger.y.value_or(middle.y()), high.z());
   const FirstTouch first =
-      lowered_onto(*body.skin, place, {scene.finger.centres, scene.finger.sphere_radius});
+      lowered_onto(*body.outer_surface, place, {scene.finger.centres, scene.finger.sphere_radius});
   body.first_touch = first.finger;
-  body.touched = body.skin->position(first.at);
+  body.touched = body.outer_surface->position(first.at);
 }
 
 }  // namespace
@@ -39,19 +39,19 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   auto body = std::make_unique<SolidBody>();
   if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
     body->mesh = specimen_mesh(scenario, folder, nullptr).mesh;
-    body->skin =
-        std::make_shared<const geometry::SmoothSurface>(geometry::skin(*body->mesh).surface);
+    body->outer_surface = std::make_shared<const geometry::SmoothSurface>(
+        geometry::outer_surface(*body->mesh).surface);
   } else if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
-    body->surface = body->skin = scene.of_file;
+    body->surface = body->outer_surface = scene.of_file;
   } else {
     body->shape = parametric(scenario.tissue.shape);
     const double spacing = spacing_over_size * geometry::extent(*body->shape).norm();
-    body->skin = std::make_shared<const geometry::SmoothSurface>(
+    body->outer_surface = std::make_shared<const geometry::SmoothSurface>(
         geometry::sampled(*body->shape, {spacing, spacing}).parts.front().surface);
   }
 
-  const geometry::Surface& skin = body->skin->surface();
-  body->base_level = base_level(scenario, skin);
+  const geometry::Surface& outer_surface = body->outer_surface->surface();
+  body->base_level = base_level(scenario, outer_surface);
 
   refuse_covered_lumps(scenario);
   const SurfaceTouch& touch = scene.choice.touch;
@@ -68,7 +68,7 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
 SolidBody flattened(const SolidBody& body, const Scene& scene) {
   constexpr double no_cosine = 2.0;  // every edge is a crease
   SolidBody flat = body;
-  flat.surface = flat.skin =
+  flat.surface = flat.outer_surface =
       std::make_shared<const geometry::SmoothSurface>(body.surface->surface(), no_cosine);
   find_touch(flat, scene);
   return flat;
@@ -76,17 +76,17 @@ SolidBody flattened(const SolidBody& body, const Scene& scene) {
 
 std::optional<std::pair<Vec3, Vec3>> touch_beside(const SolidBody& body, const Finger& finger,
                                                   const Vec3& place) {
-  const double top = box_of(body.skin->surface().vertices).high.z();
+  const double top = box_of(body.outer_surface->surface().vertices).high.z();
   const auto lowered = [&](const Vec3& beside) {
     const Vec3 from = body.first_touch + beside;
-    return lowered_onto(*body.skin, {from.x(), from.y(), top},
+    return lowered_onto(*body.outer_surface, {from.x(), from.y(), top},
                         {finger.centres, finger.sphere_radius});
   };
   try {
     const FirstTouch there = lowered(place);
-    // What a sampled skin misses of the body's own touch it misses beside it as well.
+    // What a sampled surface misses of the body's own touch it misses beside it as well.
     const Vec3 missed = (body.first_touch - lowered(Vec3::Zero()).finger).z() * Vec3::UnitZ();
-    return std::pair(there.finger + missed, body.skin->position(there.at) + missed);
+    return std::pair(there.finger + missed, body.outer_surface->position(there.at) + missed);
   } catch (const MeshError&) {
     return std::nullopt;
   }

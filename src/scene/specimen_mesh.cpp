@@ -126,15 +126,15 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
     if (of_file == nullptr) {
       mesh = tetgen_mesh(scenario, *tetgen);
     } else {
-      auto [found, remark] =
+      auto [found, warning] =
           meshing::tetgen_file(*of_file, numbered_lumps(scenario), target(*tetgen), meshing_time);
-      made = {std::move(found), std::move(remark)};
+      made = {std::move(found), std::move(warning)};
     }
   } else {
     const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
-    auto [found, names, remark] = mesh_of(file, folder);
+    auto [found, names, warning] = mesh_of(file, folder);
     for (Vec3& node : found.nodes) node = scenario.tissue.turn * node;
-    made = {std::move(found), std::move(remark), std::move(names)};
+    made = {std::move(found), std::move(warning), std::move(names)};
     name = "the mesh of " + file.file;
   }
   meshing::check(mesh, name, volume);

@@ -44,7 +44,7 @@ void refuse_covered_lumps(const scenario::Resolved& scenario);
 
 struct SpecimenMesh {
   geometry::TetMesh mesh;
-  std::string remark = {};  // that of meshing::FileMesh or meshing::NamedMesh, or empty
+  std::string warning = {};  // that of meshing::FileMesh or meshing::NamedMesh, or empty
   std::map<std::string, int> names = {};  // of the file's regions
 };
 

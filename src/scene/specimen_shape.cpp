@@ -25,13 +25,14 @@ namespace {
 using Scenario = scenario::Resolved;
 
 // The area of the surface's triangles that lie in the plane at height `z`, m^2.
-double flat_area(const geometry::Skin& skin, double z, double tolerance) {
+double flat_area(const geometry::OuterSurface& outer_surface, double z, double tolerance) {
   double sum = 0.0;
-  for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < outer_surface.surface.triangles.size(); ++t) {
     bool inside = true;
-    for (const int v : skin.surface.triangles[t])
-      inside = inside && std::abs(skin.surface.vertices[as_index(v)].z() - z) <= tolerance;
-    if (inside) sum += 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t)).norm();
+    for (const int v : outer_surface.surface.triangles[t])
+      inside = inside && std::abs(outer_surface.surface.vertices[as_index(v)].z() - z) <= tolerance;
+    if (inside)
+      sum += 0.5 * geometry::twice_area(outer_surface.surface, static_cast<int>(t)).norm();
   }
   return sum;
 }
@@ -59,14 +60,14 @@ bool knows_finger(const scenario::Mesh& mesh) {
 }  // namespace
 
 SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
-  geometry::Skin skin = geometry::skin(mesh);
+  geometry::OuterSurface outer_surface = geometry::outer_surface(mesh);
   const auto [low, high] = reach(mesh);
   const double flat = 1e-9 * geometry::diagonal(mesh);
-  const double top_area = flat_area(skin, high, flat);
-  const double bottom_area = flat_area(skin, low, flat);
+  const double top_area = flat_area(outer_surface, high, flat);
+  const double bottom_area = flat_area(outer_surface, low, flat);
   return {std::move(mesh),
-          std::move(skin.nodes),
-          geometry::SmoothSurface(std::move(skin.surface)),
+          std::move(outer_surface.nodes),
+          geometry::SmoothSurface(std::move(outer_surface.surface)),
           top_area,
           bottom_area,
           base_level,
@@ -76,18 +77,18 @@ SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
 
 SpecimenShape make_shape(const Scenario& scenario, const std::string& folder,
                          const geometry::SmoothSurface* of_file) {
-  auto [mesh, remark, names] =
+  auto [mesh, warning, names] =
       specimen_mesh(scenario, folder, of_file == nullptr ? nullptr : &of_file->surface());
   const auto [low, high] = reach(mesh);
   const double rounding = 1e-4 * (high - low);  // of files, in a flat underside
-  const double level = base_level(scenario, geometry::skin(mesh).surface);
+  const double level = base_level(scenario, geometry::outer_surface(mesh).surface);
   if (level > low + rounding && !scenario.uniform() && scenario.tissue.held_from_below() &&
       !std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
     mesh = meshing::cut_at(std::move(mesh), level, true, parametric(scenario.tissue.shape));
     meshing::check(mesh, "the mesh, cut at the border of the base,", 0.0);
   }
   SpecimenShape shape = shape_of(std::move(mesh), level);
-  shape.remark = std::move(remark);
+  shape.warning = std::move(warning);
   return shape;
 }
 
@@ -187,7 +188,7 @@ SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario
 
 void SpecimenShapes::FileSurface::copy(const FileSurface& other) {
   surface = other.surface;
-  remark = other.remark;
+  warning = other.warning;
   fault = other.fault;
   refusal = other.refusal;
 }
@@ -220,7 +221,7 @@ const SpecimenShapes::FileSurface& SpecimenShapes::surface(const Scenario& scena
   };
   try {
     meshing::WholeSurface whole = surface_of(scenario, folder);
-    known.remark = std::move(whole.remark);
+    known.warning = std::move(whole.warning);
     known.surface = std::make_shared<const geometry::SmoothSurface>(std::move(whole.surface));
   } catch (const MeshError& error) {
     refuse(error);

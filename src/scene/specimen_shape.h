@@ -24,12 +24,12 @@ namespace palpate::scene {
 
 struct SpecimenShape {
   geometry::TetMesh mesh;
-  std::vector<int> skin;  // the node of every vertex of `surface`
+  std::vector<int> outer_surface;  // the node of every vertex of `surface`
   geometry::SmoothSurface surface;
   double top_area = 0.0;     // m^2, of the flat upper end; 0 if there is none
   double bottom_area = 0.0;  // m^2
   double base_level = 0.0;   // m, absolute; the surface up to this height is the base
-  std::string remark;        // of SpecimenMesh
+  std::string warning;       // of SpecimenMesh
   std::optional<Refined> refined = {};
 };
 
@@ -67,7 +67,7 @@ class SpecimenShapes {
   struct FileSurface {
     std::mutex reading;
     std::shared_ptr<const geometry::SmoothSurface> surface;
-    std::string remark;          // of meshing::WholeSurface
+    std::string warning;         // of meshing::WholeSurface
     std::string fault;           // why there is no surface
     std::exception_ptr refusal;  // the same as it was thrown
     // Throws the refusal, if there is one.

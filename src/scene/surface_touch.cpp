@@ -246,12 +246,13 @@ geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& sur
 double width_on_edge(const geometry::SmoothSurface& surface, const Vec3& centre, double radius,
                      double deepest) {
   if (!(deepest > 0.0)) return 1.0;
-  const auto foot = surface.foot(centre, geometry::BoxTree(surface.surface()).nearest(centre));
-  if (!foot.on_crease) return 1.0;
-  const Vec3 towards = (centre - foot.position).normalized();
+  const auto closest_point =
+      surface.closest_point(centre, geometry::BoxTree(surface.surface()).nearest(centre));
+  if (!closest_point.on_crease) return 1.0;
+  const Vec3 towards = (centre - closest_point.position).normalized();
   const double flat = 2.0 * deepest / radius;
   double width = 0.0;
-  for (const geometry::SurfacePoint& side : {foot.at, foot.beyond}) {
+  for (const geometry::SurfacePoint& side : {closest_point.at, closest_point.beyond}) {
     constexpr double steepest = 0.1;  // its cosine
     const double cosine = std::clamp(surface.normal(side).dot(towards), steepest, 1.0);
     const double slope = std::sqrt(1.0 - cosine * cosine) / cosine;
@@ -282,7 +283,7 @@ SurfaceTouch surface_touch(const Scenario& scenario, const std::string& folder,
     const SpecimenShapes::FileSurface& read = shapes.surface(scenario, folder);
     if (read.surface) {
       SurfaceTouch touch = of_file(*read.surface, scenario);
-      touch.remark = read.remark;
+      touch.warning = read.warning;
       return touch;
     }
     SurfaceTouch touch;

@@ -26,11 +26,11 @@ struct SurfaceTouch {
   // m, from the touch to the nearest edge (convex crease) of a file's surface, 0 on one, to the end
   // of a lying cylinder or limb, or from the finger's way to the nearest side of a cuboid.
   double to_edge = std::numeric_limits<double>::infinity();
-  double width = 1.0;       // of the contact at the deepest travel, as width_on_edge()
-  bool one_sided = false;   // the curvature has StarStatus::one_sided
-  std::string cannot = {};  // why there is no curvature; empty if there is one
-  std::string remark = {};  // on a surface that was mended; empty if it is as the file gives it
-  bool nowhere = false;     // no model can press here: beside the body, or it is not sound
+  double width = 1.0;        // of the contact at the deepest travel, as width_on_edge()
+  bool one_sided = false;    // the curvature has StarStatus::one_sided
+  std::string cannot = {};   // why there is no curvature; empty if there is one
+  std::string warning = {};  // on a surface that was mended; empty if it is as the file gives it
+  bool nowhere = false;      // no model can press here: beside the body, or it is not sound
 
   [[nodiscard]] bool known() const { return cannot.empty(); }
   [[nodiscard]] bool curved() const { return curvature.kappa_1 != 0.0 || curvature.kappa_2 != 0.0; }

@@ -39,7 +39,7 @@ struct TimePlan {
 [[nodiscard]] TimePlan plan_time(const scenario::Resolved& scenario, const Specimen& specimen,
                                  const ContactRate& contact);
 
-// Whether the inertia of the tissue (and its drag against the ground) affects the contact force:
+// Whether the inertia of the tissue (and its nodal drag) affects the contact force:
 // for `consistent`, in steps with inertia, if the static displacement of the mesh under its loads
 // is known, so that the rest of its motion is due to inertia. False with non-linear kinematics,
 // where the contact neglects the viscosity of the mesh, and with Kelvin-Voigt, whose dashpot would

@@ -267,10 +267,11 @@ FingerPress::FingerPress(FingerOrder order) : order_(std::move(order)) {
   if (order_.centres.size() > 1) {
     // A plane of symmetry passes through the finger's point, not through one of its spheres.
     body.touched.front().head<2>() = order_.touch.finger.head<2>();
-    const geometry::BoxTree tree(order_.skin->surface());
+    const geometry::BoxTree tree(order_.outer_surface->surface());
     for (const Vec3& centre : order_.centres) {
       const Vec3 place = order_.touch.finger + centre;
-      body.touched.push_back(order_.skin->foot(place, tree.nearest(place)).position);
+      body.touched.push_back(
+          order_.outer_surface->closest_point(place, tree.nearest(place)).position);
     }
   }
   for (const int axis : {0, 1})
@@ -334,15 +335,15 @@ void FingerPress::press_ball(double force) {
   }
 }
 
-FingerPress::Skin FingerPress::skin_at(double travel, const Vec3& place) {
-  Skin skin;
+FingerPress::OuterSurface FingerPress::surface_at(double travel, const Vec3& place) {
+  OuterSurface outer_surface;
   FingerPress* const there = at(place);
-  if (there == nullptr) return skin;
-  if (there != this) return there->skin_at(travel + higher(*there), Vec3::Zero());
+  if (there == nullptr) return outer_surface;
+  if (there != this) return there->surface_at(travel + higher(*there), Vec3::Zero());
   const Vec3 finger = order_.touch.finger - travel * Vec3::UnitZ();
   const auto moved = press_->look(finger);
-  if (!moved) return skin;
-  skin.finger = press_->finger_at(finger);
+  if (!moved) return outer_surface;
+  outer_surface.finger = press_->finger_at(finger);
   const Body& body = press_->body();
   constexpr std::array<std::array<std::size_t, 3>, 4> parts{
       {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
@@ -369,11 +370,11 @@ FingerPress::Skin FingerPress::skin_at(double travel, const Vec3& place) {
             if (across[as_index(axis)]) corner[axis] = 2.0 * mirror_[axis] - corner[axis];
         const bool turned = across[0] != across[1];
         if (turned) std::swap(image[1], image[2]);
-        skin.triangles.push_back(image);
-        skin.lifts.push_back({lifts[0], lifts[turned ? 2 : 1], lifts[turned ? 1 : 2]});
+        outer_surface.triangles.push_back(image);
+        outer_surface.lifts.push_back({lifts[0], lifts[turned ? 2 : 1], lifts[turned ? 1 : 2]});
       }
     }
-  return skin;
+  return outer_surface;
 }
 
 Moment FingerPress::moment_of(const Answer& answer, double force) {
@@ -381,9 +382,9 @@ Moment FingerPress::moment_of(const Answer& answer, double force) {
 }
 
 std::optional<Answer> FingerPress::go(double travel) {
-  set_doing(order_.part + std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
+  set_doing({order_.part + std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
             quantity_text(travel / order_.share, unit::mm) + " of " +
-            quantity_text(order_.deepest, unit::mm));
+            quantity_text(order_.deepest, unit::mm)});
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) {
     const double reached = order_.touch.finger.z() - press_->reached().z();

@@ -26,7 +26,7 @@ struct BodyOrder {
 
   std::vector<tissue::Isotropic> tissues;  // one per region
   tissue::Base base = tissue::Base::bonded;
-  double base_level = 0.0;       // m, absolute; the skin up to this height is the base
+  double base_level = 0.0;       // m, absolute; the surface up to this height is the base
   Vec3 base_up = Vec3::UnitZ();  // the direction of that height; if it is not z, the base is bonded
 
   double radius = 0.0;             // m, of the balls
@@ -57,10 +57,10 @@ struct Touch {
 struct FingerOrder {
   // Its radius, travel, touched places and mirrors are set by FingerPress.
   BodyOrder body;
-  const geometry::SmoothSurface* skin = nullptr;  // of the body, for several spheres
-  std::vector<Vec3> centres{Vec3::Zero()};        // m, of the spheres, from the finger's point
-  double radius = 0.0;                            // m, of each
-  std::optional<tissue::Isotropic> ball = {};     // an elastic finger's; of one sphere
+  const geometry::SmoothSurface* outer_surface = nullptr;  // of the body, for several spheres
+  std::vector<Vec3> centres{Vec3::Zero()};     // m, of the spheres, from the finger's point
+  double radius = 0.0;                         // m, of each
+  std::optional<tissue::Isotropic> ball = {};  // an elastic finger's; of one sphere
   double share = 1.0;    // of the tissue in the compliance of the contact; 1 if the finger is rigid
   double deepest = 0.0;  // m, travel of the finger
   Touch touch;
@@ -100,15 +100,15 @@ class FingerPress {
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
-  // The skin that may be met at a place beside the first touch, displaced, with all copies that the
-  // mirrors make, m; faces are quadratic and come in four parts. With the finger there. Empty where
-  // no equilibrium is found.
-  struct Skin {
+  // The surface that may be met at a place beside the first touch, displaced, with all copies that
+  // the mirrors make, m; faces are quadratic and come in four parts. With the finger there. Empty
+  // where no equilibrium is found.
+  struct OuterSurface {
     std::vector<std::array<Vec3, 3>> triangles;
     std::vector<std::array<double, 3>> lifts;  // m, of the corners along the undeformed normal
     std::vector<Indenter> finger;
   };
-  [[nodiscard]] Skin skin_at(double travel, const Vec3& place);
+  [[nodiscard]] OuterSurface surface_at(double travel, const Vec3& place);
 
   [[nodiscard]] const Press& press() const { return *press_; }
 

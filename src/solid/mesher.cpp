@@ -141,7 +141,7 @@ class Mesher {
         return geometry::onto(*order_.shape, point, number - first_round);
       if (number == of_file) {
         const geometry::Near near = tree_->nearest(point);
-        return order_.surface->foot(point, near).position;
+        return order_.surface->closest_point(point, near).position;
       }
     }
     return point;

@@ -63,7 +63,7 @@ class Contact {
   // its second derivative. The rest, the pressure times the curvature of the indenter, is negative:
   // far from equilibrium the stiffness would not be positive definite, and near it Newton's steps
   // converge as well without. Unless `least` (m, one per indenter) is empty, points that overlap
-  // the undeformed body less than that are left out.
+  // the undeformed body less than that are excluded.
   void add(const Vector& displacement, std::span<const Indenter> indenters,
            std::span<const double> least, Vector& force, Eigen::SparseMatrix<double>& stiffness,
            std::vector<Met>& met) const;
@@ -115,7 +115,7 @@ struct Body {
 // The force on the finger at one place, of all copies.
 struct Answer {
   std::vector<double> forces;  // N, upwards, one per indenter
-  Vec3 force = Vec3::Zero();   // N, on the finger; sideways parts that mirrors cancel are left out
+  Vec3 force = Vec3::Zero();   // N, on the finger; sideways parts that mirrors cancel are excluded
   double lost = 0.0;           // m, depth that the penalty lets through, mean weighted by pressure
   double area = 0.0;           // m^2, in contact
   double peak = 0.0;           // Pa

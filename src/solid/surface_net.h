@@ -53,7 +53,7 @@ class SurfaceNet {
   // Splits edges that are longer than `size` says for their middles, the longest first, turns edges
   // between triangles of one number where that makes them rounder, and moves vertices between such
   // triangles to the middle of their neighbours. Turns and moves by which triangles of the number
-  // `whole` would cross each other are left out; these form a manifold.
+  // `whole` would cross each other are excluded; these form a manifold.
   void refine(const std::function<double(const Vec3&)>& size, std::optional<int> whole = {});
 
   // Adds a vertex on no triangle; returns its number.

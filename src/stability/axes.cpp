@@ -30,7 +30,7 @@ void along_modulus(Survey& survey) {
     const double modulus = 100.0 * std::pow(1.7e8, static_cast<double>(i) / (points - 1));
     survey.go_on("Young's modulus");
     const auto probed = survey.make_body(
-        survey.rung, [&](Scenario& scenario) { scenario.tissue.young_modulus = modulus; });
+        survey.given, [&](Scenario& scenario) { scenario.tissue.young_modulus = modulus; });
     for (const Method& method : explicit_methods())
       add_limit(survey, *probed, method, {}, {.axis = "young_modulus_Pa", .value = modulus});
   }
@@ -79,13 +79,13 @@ void along_size(Survey& survey) {
     survey.go_on("element size");
     std::unique_ptr<ProbedBody> probed;
     try {
-      probed = survey.make_body(survey.rung, [&](Scenario& scenario) {
+      probed = survey.make_body(survey.given, [&](Scenario& scenario) {
         if (factor != 1.0) scenario.tissue.mesh = mesh;
       });
     } catch (const MeshError& error) {
       if (factor == 1.0) throw;
       survey.map.sentences.push_back("Elements " + number_text(factor) +
-                                     " times as long were left out: " + error.what() + ".");
+                                     " times as long were excluded: " + error.what() + ".");
       continue;
     }
     const auto& lengths = probed->scene.specimen->network.rest_length;
@@ -156,7 +156,7 @@ void along_device(Survey& survey) {
       return !wall_gains_energy(device, spring->stiffness);
     };
     LimitRow row;
-    row.rung = "device";
+    row.model = "device";
     row.volume = "none";
     row.integrator = "zero_order_hold";
     row.damping = "device";

@@ -219,11 +219,12 @@ std::unique_ptr<ProbedBody> make_probed_body(const scenario::Case& one,
   return probed;
 }
 
-RungOf rung_of(const Scenario& scenario) {
+ModelAndVolume model_and_volume(const Scenario& scenario) {
   const Solver& solver = scenario.solver;
-  const bool named = solver.model && scenario::rung(*solver.model).meshed();
-  const scenario::Rung& rung = named ? scenario::rung(*solver.model) : scenario::strongest;
-  return {rung.of, solver.volume.value_or(rung.volume)};
+  const bool named = solver.model && scenario::traits(*solver.model).meshed();
+  const scenario::ModelTraits& traits =
+      named ? scenario::traits(*solver.model) : scenario::strongest;
+  return {traits.of, solver.volume.value_or(traits.volume)};
 }
 
 Damping damping_of(const scenario::Case& one, Viscosity form) {
@@ -276,7 +277,7 @@ std::optional<ContactSpring> contact_spring(const ProbedBody& probed) {
                      contact::hertz::stiffness(depth, scene.law().radius, scene.law().modulus);
   spring.weights = integrate::Vector::Zero(3 * probed.nodes());
   for (std::size_t j = 0; j < load.vertices.size(); ++j) {
-    const int node = specimen.skin[as_index(load.vertices[j])];
+    const int node = specimen.outer_surface[as_index(load.vertices[j])];
     for (int c = 0; c < 3; ++c)
       if (specimen.held[as_index(3 * node + c)] == 0)
         spring.weights[3 * node + c] = -load.shares[j] * patch.normal[c];

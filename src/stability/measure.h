@@ -112,12 +112,12 @@ struct ProbedBody {
 
 // The scenario's model and volume term, or the model's default term. Coupled springs if the
 // scenario names no model or one without a mesh.
-struct RungOf {
+struct ModelAndVolume {
   scenario::Solver::Model model;
   scenario::Solver::Volume volume;
-  bool operator==(const RungOf&) const = default;
+  bool operator==(const ModelAndVolume&) const = default;
 };
-[[nodiscard]] RungOf rung_of(const scenario::Scenario& scenario);
+[[nodiscard]] ModelAndVolume model_and_volume(const scenario::Scenario& scenario);
 
 // A form of damping with the values of the scenario, else of its material, else assumed values.
 struct Damping {

@@ -22,9 +22,9 @@ int top_node(const ProbedBody& probed) {
   const scene::Specimen& specimen = *probed.scene.specimen;
   Vec3 middle = 0.5 * (specimen.low + specimen.high);
   middle.z() = specimen.high.z();
-  int nearest = specimen.skin.front();
+  int nearest = specimen.outer_surface.front();
   double least = std::numeric_limits<double>::infinity();
-  for (const int node : specimen.skin) {
+  for (const int node : specimen.outer_surface) {
     const double distance = (specimen.mesh.nodes[as_index(node)] - middle).norm();
     if (specimen.held[as_index(3 * node + 2)] != 0 || distance >= least) continue;
     nearest = node;
@@ -71,7 +71,7 @@ void probe_inversion(Survey& survey) {
   };
   FailureRow row;
   row.failure = Failure::inversion;
-  row.rung = "any";
+  row.model = "any";
   row.measure = "displacement of the top's middle node alone until a tetrahedron turns, mm";
   const std::optional<double> turns = bisect_limit(upright, 0.1 * theory, 1e3 * theory, 1e-6);
   row.reached = turns.has_value();
@@ -101,7 +101,7 @@ void probe_inversion(Survey& survey) {
       wrong = stepper.step(state, nothing, nothing, integrate::MemoryRule::exact);
     FailureRow left;
     left.failure = Failure::false_equilibrium;
-    left.rung = "mass_spring, nonlinear";
+    left.model = "mass_spring, nonlinear";
     left.integrator = "backward_difference";
     left.setting = times;
     left.setting_unit = "push over the inverting displacement, then let go";
@@ -146,7 +146,7 @@ double compliance(const ProbedBody& probed) {
 void probe_locking(Survey& survey) {
   constexpr std::array ratios{0.3, 0.4995};
   constexpr double much = 1.5;  // times the ratio of the half-space
-  for (const scenario::Rung& model : scenario::ladder) {
+  for (const scenario::ModelTraits& model : scenario::model_table) {
     if (!model.meshed() || model.solid) continue;
     for (const auto volume : {Solver::Volume::tetrahedron, Solver::Volume::nodal}) {
       survey.go_on("locking");
@@ -159,8 +159,8 @@ void probe_locking(Survey& survey) {
       }
       FailureRow row;
       row.failure = Failure::locking;
-      row.rung = model.word + std::string(", volume ") +
-                 scenario::words::word(scenario::words::volumes, volume);
+      row.model = model.word + std::string(", volume ") +
+                  scenario::words::word(scenario::words::volumes, volume);
       row.setting = ratios[1];
       row.setting_unit = "Poisson's ratio";
       row.measure = "stiffness where it is pressed over that at 0.3";
@@ -183,7 +183,7 @@ namespace {
 
 using scenario::Solver;
 
-std::string rung_word(const Survey& survey) { return scenario::rung(survey.rung.model).word; }
+std::string model_word(const Survey& survey) { return scenario::traits(survey.given.model).word; }
 
 // Growth of the amplitude per step at 0.95 and 1.05 of the limit, undamped.
 void probe_divergence(Survey& survey) {
@@ -196,7 +196,7 @@ void probe_divergence(Survey& survey) {
     survey.go_on("divergence");
     FailureRow row;
     row.failure = Failure::divergence;
-    row.rung = rung_word(survey);
+    row.model = model_word(survey);
     row.integrator = "central_difference";
     row.setting = share;
     row.setting_unit = "time step over 2/omega_max";
@@ -228,7 +228,7 @@ void probe_overflow(Survey& survey) {
   const Moved late = move(motion, step, std::numeric_limits<double>::infinity());
   FailureRow row;
   row.failure = Failure::non_finite;
-  row.rung = rung_word(survey);
+  row.model = model_word(survey);
   row.integrator = "central_difference";
   row.setting = 2.0;
   row.setting_unit = "time step over 2/omega_max";
@@ -276,7 +276,7 @@ void probe_drift(Survey& survey) {
     own.scene.scenario.solver.integrator = method.integrator;
     FailureRow row;
     row.failure = Failure::drift;
-    row.rung = rung_word(survey);
+    row.model = model_word(survey);
     row.integrator = method.name();
     row.setting = 1e6 * step;
     row.setting_unit = "us, the time step";
@@ -323,7 +323,7 @@ void probe_tunnelling(Survey& survey, double depth) {
   const double rate = first_rate(scenario);
   FailureRow row;
   row.failure = Failure::tunnelling;
-  row.rung = "any";
+  row.model = "any";
   row.setting = 1e3 * rate;
   row.setting_unit = "mm/s, the rate of loading";
   row.measure =
@@ -347,7 +347,7 @@ void probe_chatter(Survey& survey, double stiffness) {
     device.sampled.damping = share * contact::needed_damping(stiffness, device.sampled);
     FailureRow row;
     row.failure = Failure::chatter;
-    row.rung = "device";
+    row.model = "device";
     row.integrator = "zero_order_hold";
     row.setting = share;
     row.setting_unit = "device damping over K T / 2, frames of 1 ms";

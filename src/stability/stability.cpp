@@ -21,7 +21,7 @@ void Survey::go_on(const std::string& what) {
 }
 
 std::unique_ptr<ProbedBody> Survey::make_body(
-    const RungOf& on, const std::function<void(scenario::Scenario&)>& change) {
+    const ModelAndVolume& on, const std::function<void(scenario::Scenario&)>& change) {
   scenario::Case changed = bare(*one, on.model, on.volume);
   if (change) change(changed.scenario);
   return make_probed_body(changed, *family, shapes);
@@ -32,7 +32,7 @@ void add_limit(Survey& survey, ProbedBody& probed, const Method& method,
   const scenario::Resolved::Solver& solver = probed.scene.scenario.solver;
   const Measured measured = measure_limit(probed, method, law, setting.contact);
   LimitRow row;
-  row.rung = scenario::rung(solver.model).word;
+  row.model = scenario::traits(solver.model).word;
   row.volume = scenario::words::word(scenario::words::volumes, solver.volume);
   row.integrator = method.name();
   row.damping = setting.damping.empty()
@@ -57,16 +57,16 @@ constexpr std::array volumes{Solver::Volume::none, Solver::Volume::tetrahedron,
 
 }  // namespace
 
-void survey_rungs(Survey& survey) {
-  for (const scenario::Rung& model : scenario::ladder) {
+void survey_models(Survey& survey) {
+  for (const scenario::ModelTraits& model : scenario::model_table) {
     if (!model.meshed() || model.solid) continue;
     for (const Solver::Volume volume : volumes) {
-      const RungOf rung{model.of, volume};
-      const bool own = rung == survey.rung;
+      const ModelAndVolume one{model.of, volume};
+      const bool own = one == survey.given;
       // Coupled springs without a volume term are refused in scenarios.
       if (model.coupled() && volume == Solver::Volume::none) continue;
       StopScope::end_if_stopped();
-      const auto probed = survey.make_body(rung);
+      const auto probed = survey.make_body(one);
       for (const Viscosity form : forms) {
         if (survey.large() && !own && form != Viscosity::none) continue;
         const Damping damping = damping_of(*survey.one, form);
@@ -110,14 +110,14 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   survey.one = &one;
   survey.family = &family;
   survey.told = &told;
-  survey.rung = rung_of(one.scenario);
+  survey.given = model_and_volume(one.scenario);
   told("mesh", 0.0);
-  survey.own = survey.make_body(survey.rung);
+  survey.own = survey.make_body(survey.given);
   refuse_large(*survey.own, family);
-  constexpr int beyond_rungs = 110;  // about the number of measurements on axes and of probes
-  const std::size_t on_rungs = survey.large() ? forms.size() + 4 : 5 * forms.size();
-  survey.planned = static_cast<int>(on_rungs * methods().size()) + beyond_rungs;
-  survey_rungs(survey);
+  constexpr int beyond_models = 110;  // about the number of measurements on axes and of probes
+  const std::size_t on_models = survey.large() ? forms.size() + 4 : 5 * forms.size();
+  survey.planned = static_cast<int>(on_models * methods().size()) + beyond_models;
+  survey_models(survey);
   survey_axes(survey);
   probe_time(survey);
   probe_shape(survey);

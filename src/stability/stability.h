@@ -28,8 +28,8 @@ enum class Failure {
 
 // One measured limit of the time step.
 struct LimitRow {
-  std::string rung, volume, integrator, damping;
-  std::string axis;                        // varied quantity with its unit, or `rung`
+  std::string model, volume, integrator, damping;
+  std::string axis;                        // varied quantity with its unit, or `model`
   std::optional<double> value;             // of the quantity, in this unit
   std::optional<double> measured, theory;  // s; nothing: no limit
   Failure failure = Failure::none;         // beyond the limit
@@ -39,7 +39,7 @@ struct LimitRow {
 // One probe for a failure.
 struct FailureRow {
   Failure failure = Failure::none;
-  std::string rung, integrator;
+  std::string model, integrator;
   std::string measure;  // name and unit of the numbers `measured` and `theory`
   std::optional<double> setting;
   std::string setting_unit;
@@ -73,11 +73,11 @@ using Told = std::function<void(const std::string& what, double share)>;
 [[nodiscard]] StabilityMap map_stability(const scenario::Case& one, const scenario::Family& family,
                                          const Told& told);
 
-// stability.csv: rung, volume, integrator, damping, axis, value, limit_us, theory_us, ratio,
+// stability.csv: model, volume, integrator, damping, axis, value, limit_us, theory_us, ratio,
 // failure, note.
 [[nodiscard]] record::Table limit_table(const StabilityMap& map);
 
-// failures.csv: failure, rung, integrator, setting, setting_unit, measure, measured, theory, seen,
+// failures.csv: failure, model, integrator, setting, setting_unit, measure, measured, theory, seen,
 // note.
 [[nodiscard]] record::Table failure_table(const StabilityMap& map);
 

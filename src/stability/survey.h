@@ -11,7 +11,7 @@ struct Survey {
   const scenario::Family* family = nullptr;
   const Told* told = nullptr;
   scene::SpecimenShapes shapes;     // of all bodies
-  RungOf rung;                      // of the scenario
+  ModelAndVolume given;                  // of the scenario
   std::unique_ptr<ProbedBody> own;  // the scenario's specimen
   StabilityMap map;
   int done = 0;     // measurements
@@ -25,7 +25,7 @@ struct Survey {
 
   // The body of the scenario with the model and volume term `on`, after `change`.
   [[nodiscard]] std::unique_ptr<ProbedBody> make_body(
-      const RungOf& on, const std::function<void(scenario::Scenario&)>& change = {});
+      const ModelAndVolume& on, const std::function<void(scenario::Scenario&)>& change = {});
 };
 
 struct Setting {
@@ -41,7 +41,7 @@ void add_limit(Survey& survey, ProbedBody& probed, const Method& method,
                const tissue::ViscousLaw& law, const Setting& setting);
 
 // The parts of the map.
-void survey_rungs(Survey& survey);
+void survey_models(Survey& survey);
 void survey_axes(Survey& survey);
 void probe_time(Survey& survey);   // divergence, non_finite, drift
 void probe_shape(Survey& survey);  // inversion, false equilibrium, locking

@@ -42,7 +42,7 @@ record::Table limit_table(const StabilityMap& map) {
   for (const LimitRow& row : map.limits) {
     Cell ratio;
     if (row.measured && row.theory && *row.theory > 0.0) ratio = *row.measured / *row.theory;
-    table.rows.push_back({row.rung, row.volume, row.integrator, row.damping, row.axis,
+    table.rows.push_back({row.model, row.volume, row.integrator, row.damping, row.axis,
                           cell(row.value), microseconds(row.measured), microseconds(row.theory),
                           ratio, failure_word(row.failure), cell(row.note)});
   }
@@ -54,7 +54,7 @@ record::Table failure_table(const StabilityMap& map) {
   table.columns = {"failure", "model",    "integrator", "setting", "setting_unit",
                    "measure", "measured", "theory",     "seen",    "note"};
   for (const FailureRow& row : map.failures)
-    table.rows.push_back({failure_word(row.failure), cell(row.rung), cell(row.integrator),
+    table.rows.push_back({failure_word(row.failure), cell(row.model), cell(row.integrator),
                           cell(row.setting), cell(row.setting_unit), row.measure,
                           cell(row.measured), cell(row.theory), row.reached ? "yes" : "not reached",
                           cell(row.note)});
@@ -297,11 +297,11 @@ std::string micro(double seconds) { return rounded_text(1e6 * seconds, 4) + " us
 
 const LimitRow* find(const Survey& survey, const std::string& axis, const std::string& integrator,
                      const std::string& damping, std::optional<double> value = {}) {
-  const std::string rung = scenario::rung(survey.rung.model).word;
-  const std::string volume = scenario::words::word(scenario::words::volumes, survey.rung.volume);
+  const std::string model = scenario::traits(survey.given.model).word;
+  const std::string volume = scenario::words::word(scenario::words::volumes, survey.given.volume);
   for (const LimitRow& row : survey.map.limits)
     if (row.axis == axis && row.integrator == integrator && row.damping == damping &&
-        row.rung == rung && row.volume == volume && (!value || row.value == value))
+        row.model == model && row.volume == volume && (!value || row.value == value))
       return &row;
   return nullptr;
 }
@@ -309,8 +309,8 @@ const LimitRow* find(const Survey& survey, const std::string& axis, const std::s
 std::string limits_sentence(const Survey& survey) {
   const scene::TimePlan& plan = survey.own->scene.specimen->plan;
   const LimitRow* free = find(survey, "model", "central_difference", "none");
-  std::string text = std::string(scenario::rung(survey.rung.model).word) + " with volume `" +
-                     scenario::words::word(scenario::words::volumes, survey.rung.volume) + "`, " +
+  std::string text = std::string(scenario::traits(survey.given.model).word) + " with volume `" +
+                     scenario::words::word(scenario::words::volumes, survey.given.volume) + "`, " +
                      std::to_string(survey.own->nodes()) + " nodes: ";
   if (free == nullptr || !free->measured || !free->theory) return text + "no limit was measured.";
   return text + "central differences are stable below " + micro(*free->measured) +
@@ -325,7 +325,7 @@ std::string agreement_sentence(const Survey& survey) {
   double worst = 0.0;
   int unlimited = 0;
   for (const LimitRow& row : survey.map.limits) {
-    if (row.rung == "device") continue;
+    if (row.model == "device") continue;
     if (!row.theory) {
       if (!row.measured) ++unlimited;
       continue;
@@ -341,9 +341,9 @@ std::string agreement_sentence(const Survey& survey) {
 
 std::string first_to_fail(const Survey& survey) {
   const LimitRow* shortest = nullptr;
-  const std::string rung = scenario::rung(survey.rung.model).word;
+  const std::string model = scenario::traits(survey.given.model).word;
   for (const LimitRow& row : survey.map.limits)
-    if (row.axis == "model" && row.rung == rung && row.measured && row.theory &&
+    if (row.axis == "model" && row.model == model && row.measured && row.theory &&
         (shortest == nullptr || *row.measured < *shortest->measured))
       shortest = &row;
   if (shortest == nullptr) return {};

@@ -29,7 +29,7 @@ std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
                      [&](std::string_view key) { return line.starts_with(key); }))
       text += (text.empty() ? "" : "\n") + line;
   if (one.at_least && *one.at_least != scenario::Model::hertz && !one.scenario.solver.model)
-    text += std::string("\nat_least = ") + scenario::rung(*one.at_least).word;
+    text += std::string("\nat_least = ") + scenario::traits(*one.at_least).word;
   for (const auto& [name, hash] : files)
     if (std::find(one.files.begin(), one.files.end(), name) != one.files.end())
       text += name + " " + hash + "\n";

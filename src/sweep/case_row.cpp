@@ -48,8 +48,8 @@ record::Table curve_of(const record::CaseRecord& record) {
 }  // namespace
 
 SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record, bool keeps_curve) {
-  SweepRow row{.reason = record.reason, .name = record.name, .remarks = record.remarks};
-  if (!record.answer.complete) row.remarks.push_back(record.answer.left_out);
+  SweepRow row{.reason = record.reason, .name = record.name, .warnings = record.warnings};
+  if (!record.answer.complete) row.warnings.push_back(record.answer.neglected);
   if (record.outcome == record::Outcome::diverged) row.outcome = SweepOutcome::diverged;
   for (const record::Finding& finding : record.findings)
     if (finding.name != "outcome") row.values.push_back(finding);

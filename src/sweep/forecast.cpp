@@ -15,8 +15,8 @@
 #include "run/refined_mesh.h"
 #include "scenario/programme.h"
 #include "scene/estimates.h"
-#include "scene/sinking_store.h"
 #include "scene/specimen_shape.h"
+#include "scene/surface_displacement_store.h"
 #include "sweep/case_row.h"
 #include "sweep/plan.h"
 #include "sweep/stopwatch.h"
@@ -78,7 +78,7 @@ class Trial {
       (void)case_id(one, files_);
       scenes.push_back(run::build_scene(one, family_, shapes_));
       scenes.back().scenario.output.keep_rows_only();
-      scenes.back().sinkings = &sinkings_;
+      scenes.back().surface_displacements = &surface_displacements_;
     }
     const StopScope deadline(longest - seconds_since(start));
     for (const scene::Scene& scene : scenes) {
@@ -111,7 +111,7 @@ class Trial {
   bool keeps_curves_;
   HashedNames files_;
   scene::SpecimenShapes shapes_;
-  scene::SinkingStore sinkings_;
+  scene::SurfaceDisplacementStore surface_displacements_;
 };
 
 // The largest memory of this process so far, bytes: it has had more cases at once than a worker.

@@ -32,7 +32,7 @@ struct SweepOrder {
   std::string scenario;
   std::vector<std::string> settings = {};
   std::string out = "out";
-  enum class Curves { left_out, kept } curves = Curves::left_out;
+  enum class Curves { omitted, kept } curves = Curves::omitted;
   enum class Ceiling { holds, lifted } ceiling = Ceiling::holds;
   int workers = 1;
   std::string program = {};  // the version that plans; only this version runs the plan

@@ -19,7 +19,7 @@ std::string plan_text(const PlanFile& file) {
   json["settings"] = file.settings;
   json["curves"] = file.curves;
   json["cases"] = file.cases;
-  if (file.model) json["model"] = scenario::rung(*file.model).word;  // of `auto`, for all cases
+  if (file.model) json["model"] = scenario::traits(*file.model).word;  // of `auto`, for all cases
   json["plan_csv_sha256"] = file.csv_hash;
   json["inputs"] = Json::array();
   for (const auto& [name, hash] : file.inputs)
@@ -40,10 +40,13 @@ PlanFile read_plan_file(const std::string& text, const std::string& path) {
     if (!cases.is_number_unsigned()) throw std::runtime_error("no number of cases");
     file.cases = cases;
     if (json.contains("model")) {
-      const auto named = [&](const scenario::Rung& rung) { return json["model"] == rung.word; };
-      const auto* rung = std::find_if(scenario::ladder.begin(), scenario::ladder.end(), named);
-      if (rung == scenario::ladder.end()) throw std::runtime_error("no model");
-      file.model = rung->of;
+      const auto named = [&](const scenario::ModelTraits& traits) {
+        return json["model"] == traits.word;
+      };
+      const auto* traits =
+          std::find_if(scenario::model_table.begin(), scenario::model_table.end(), named);
+      if (traits == scenario::model_table.end()) throw std::runtime_error("no model");
+      file.model = traits->of;
     }
     file.csv_hash = json.at("plan_csv_sha256");
     for (const Json& input : json.at("inputs"))

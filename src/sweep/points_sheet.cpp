@@ -6,6 +6,7 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "plot/gnuplot_text.h"
+#include "plot/palette.h"
 #include "sweep/labels.h"
 #include "sweep/response.h"
 
@@ -126,12 +127,13 @@ std::optional<plot::Sheet> points_sheet(const sweep::SweepColumns& columns,
   if (every(columns) > 1) whole += ", one case in " + std::to_string(every(columns));
   if (failed) whole += "; crosses: no value";
   const int height = 72 + 300 * static_cast<int>(panels.size());
-  std::string text =
-      plot::gnuplot_head(name, {.height = height}) + "unset key\nset xlabel offset 0,0.4\n" +
-      plot::gnuplot_palette() + "set multiplot layout " + std::to_string(panels.size()) +
-      ",1 margins screen 0.14,0.8," + rounded_text(72.0 / height, 3) + "," +
-      rounded_text(1.0 - 45.0 / height, 3) + " spacing screen 0," + rounded_text(75.0 / height, 3) +
-      " title " + plot::gnuplot_quoted(whole) + " font ',15'\n";
+  std::string text = plot::gnuplot_head(name, {.height = height}) +
+                     "unset key\nset xlabel offset 0,0.4\n" +
+                     plot::gnuplot_palette(plot::brightest_line) + "set multiplot layout " +
+                     std::to_string(panels.size()) + ",1 margins screen 0.14,0.8," +
+                     rounded_text(72.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
+                     " spacing screen 0," + rounded_text(75.0 / height, 3) + " title " +
+                     plot::gnuplot_quoted(whole) + " font ',15'\n";
   for (const std::string& one : panels) text += one;
   return plot::Sheet{name, text + "\nunset multiplot\n", {points_file}};
 }

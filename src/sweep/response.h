@@ -69,9 +69,9 @@ struct SweepShown {
   const SweepColumns& columns;
   const Sensitivity& found;
   std::string title;
-  std::string totals;                // a sentence: how many cases were completed
-  std::string scenario;              // the text that was planned
-  std::vector<std::string> remarks;  // sentences
+  std::string totals;                 // a sentence: how many cases were completed
+  std::string scenario;               // the text that was planned
+  std::vector<std::string> warnings;  // sentences
 };
 
 // Writes report.html into the folder, whose tables and figures draw_sweep() has written.

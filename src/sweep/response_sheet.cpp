@@ -206,10 +206,10 @@ std::string curve_plots(const Response& response) {
   for (const std::size_t j : chosen(count)) {
     if (!std::isfinite(ends({&grid.values[j * width], width}).low)) continue;  // gnuplot complains
     const double share = count > 1 ? static_cast<double>(j) / static_cast<double>(count - 1) : 0.0;
-    // The brightest colours are left out, being hard to see on white; words have no order.
+    // The brightest colours are excluded, being hard to see on white; words have no order.
     const std::string colour = named || !response.along
                                    ? plot::line_colours[j % plot::line_colours.size()]
-                                   : plot::palette_colour(0.88 * share);
+                                   : plot::palette_colour(plot::brightest_line * share);
     const std::string title =
         !response.along
             ? "notitle"

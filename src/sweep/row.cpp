@@ -1,4 +1,4 @@
-// Rows as tables: id, attempt, outcome, reason, name, and values, remarks and curve as CSV texts.
+// Rows as tables: id, attempt, outcome, reason, name, and values, warnings and curve as CSV texts.
 #include "sweep/row.h"
 
 #include <charconv>
@@ -42,12 +42,12 @@ std::optional<std::uint64_t> id_of(std::string_view text) {
 record::Table journal_row(const SweepRow& row) {
   record::Table values{{"name", "value"}, {}};
   for (const record::Finding& value : row.values) values.rows.push_back({value.name, value.value});
-  record::Table remarks{{"remark"}, {}};
-  for (const std::string& remark : row.remarks) remarks.rows.push_back({remark});
+  record::Table warnings{{"warning"}, {}};
+  for (const std::string& warning : row.warnings) warnings.rows.push_back({warning});
   const std::string curve = row.curve.columns.empty() ? "" : record::csv_text(row.curve);
   return {{"id", "attempt", "outcome", "reason", "name", "values", "remarks", "curve"},
           {{id_text(row.id), static_cast<double>(row.attempt), outcome_word(row.outcome),
-            row.reason, row.name, record::csv_text(values), record::csv_text(remarks), curve}}};
+            row.reason, row.name, record::csv_text(values), record::csv_text(warnings), curve}}};
 }
 
 std::optional<SweepHead> head_of(const record::Table& row) {
@@ -79,10 +79,10 @@ std::optional<SweepRow> row_of(const record::Table& row) {
       if (name == nullptr || value.size() != 2) return std::nullopt;
       read.values.push_back({*name, std::move(value[1])});
     }
-    for (const auto& remark : record::parse_csv(word("remarks"), "remarks").rows) {
-      const auto* sentence = std::get_if<std::string>(remark.data());
+    for (const auto& warning : record::parse_csv(word("remarks"), "remarks").rows) {
+      const auto* sentence = std::get_if<std::string>(warning.data());
       if (sentence == nullptr) return std::nullopt;
-      read.remarks.push_back(*sentence);
+      read.warnings.push_back(*sentence);
     }
     if (!word("curve").empty()) read.curve = record::parse_csv(word("curve"), "curve");
   } catch (const InputError&) {

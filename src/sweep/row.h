@@ -31,7 +31,7 @@ struct SweepRow {
   std::string reason = {};                   // a sentence; empty if completed
   std::string name = {};                     // of the case
   std::vector<record::Finding> values = {};  // findings, then the parameters of fits
-  std::vector<std::string> remarks = {};
+  std::vector<std::string> warnings = {};
   record::Table curve = {};  // without the column `case`; no columns if curves are not kept
 };
 

@@ -16,8 +16,8 @@
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "scene/estimates.h"
-#include "scene/sinking_store.h"
 #include "scene/specimen_shape.h"
+#include "scene/surface_displacement_store.h"
 #include "sweep/case_row.h"
 #include "sweep/journal.h"
 #include "sweep/stopwatch.h"
@@ -180,7 +180,7 @@ class Runner {
       attempt(made, [&] {
         made.scene = run::build_scene(*made.one, plan_.family, *shapes_);
         made.scene->scenario.output.keep_rows_only();
-        made.scene->sinkings = &sinkings_;
+        made.scene->surface_displacements = &surface_displacements_;
       });
     });
     std::vector<scene::Scene> scenes;
@@ -220,7 +220,7 @@ class Runner {
   std::function<std::uint32_t(std::uint32_t)> attempt_;
   std::unique_ptr<record::Journal> journal_;
   std::unique_ptr<scene::SpecimenShapes> shapes_ = std::make_unique<scene::SpecimenShapes>();
-  scene::SinkingStore sinkings_;
+  scene::SurfaceDisplacementStore surface_displacements_;
   std::mutex writing_;
   std::exception_ptr failure_;
   SweepProgress now_;

@@ -42,7 +42,7 @@ void saltelli(const SweepColumns& columns, const OutputColumn& output,
         found, output.name,
         std::to_string(blocks - whole) + " of " + std::to_string(blocks) + " blocks of " +
             std::to_string(block) +
-            " cases are left out, because one of their cases failed or is missing; if that depends "
+            " cases are excluded, because one of their cases failed or is missing; if that depends "
             "on the factors, the indices are biased");
   if (whole < 2) {
     note(found, output.name, "at least two complete blocks are needed; run what is missing");

@@ -65,7 +65,7 @@ struct CorrelationRow {
 struct Sensitivity {
   std::vector<SensitivityRow> indices = {};
   std::vector<CorrelationRow> correlations = {};
-  std::vector<std::string> notes = {};  // sentences on cases left out and indices not computed
+  std::vector<std::string> notes = {};  // sentences on cases excluded and indices not computed
 };
 [[nodiscard]] Sensitivity sensitivity(const SweepColumns& columns,
                                       const BootstrapOptions& options = {});

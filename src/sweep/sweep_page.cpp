@@ -72,7 +72,7 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
     tables +=
         page::table_of_file("Rank correlations", correlation_table(found), "correlation.csv", most);
   page.section("Sensitivity", tables);
-  page.section("Warnings", page::paragraphs(shown.remarks));
+  page.section("Warnings", page::paragraphs(shown.warnings));
   page.section("Scenario", page::folded("The scenario as written", shown.scenario));
   page.section("How it was made",
                page::making({.command = "palpate sweep plan SCENARIO.toml --out PLAN\n"

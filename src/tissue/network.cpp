@@ -34,7 +34,7 @@ Network make_network(const geometry::TetMesh& mesh, std::span<const double> dens
 
 namespace {
 
-// Copies the couplings that can load a moving node of the part. Those left out cannot be strained:
+// Copies the couplings that can load a moving node of the part. Those excluded cannot be strained:
 // both ends of their springs are held or outside. If a tetrahedron has a moving corner, all its
 // springs are in the part. A volume may be averaged around a node that is in the edge or just
 // outside it; some of its springs are then missing, and these do not change their length.

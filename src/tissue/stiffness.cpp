@@ -215,21 +215,22 @@ std::vector<char> held_lightly(const geometry::TetMesh& mesh) {
 
 Uniaxial traction_test(const Network& network, const geometry::TetMesh& mesh) {
   const std::vector<char> held = held_lightly(mesh);
-  const geometry::Skin skin = geometry::skin(mesh);
-  const auto node = [&](int vertex) { return skin.nodes[as_index(vertex)]; };
+  const geometry::OuterSurface outer_surface = geometry::outer_surface(mesh);
+  const auto node = [&](int vertex) { return outer_surface.nodes[as_index(vertex)]; };
   Vector load = Vector::Zero(3 * network.nodes());
-  for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
-    const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));
-    for (const int vertex : skin.surface.triangles[t]) load[3 * node(vertex) + 2] += face.z() / 3.0;
+  for (std::size_t t = 0; t < outer_surface.surface.triangles.size(); ++t) {
+    const Vec3 face = 0.5 * geometry::twice_area(outer_surface.surface, static_cast<int>(t));
+    for (const int vertex : outer_surface.surface.triangles[t])
+      load[3 * node(vertex) + 2] += face.z() / 3.0;
   }
   // The tractions balance, so that the supports bear nothing.
   const Vector displacement = solve(stiffness_matrix(network), held, load);
   // mean strain = 1/V sum over the surface of (mean displacement) x (area vector)
   //                                                                       docs/theory.md [traction]
   Vec3 stretch = Vec3::Zero();
-  for (std::size_t t = 0; t < skin.surface.triangles.size(); ++t) {
-    const Vec3 face = 0.5 * geometry::twice_area(skin.surface, static_cast<int>(t));
-    for (const int vertex : skin.surface.triangles[t])
+  for (std::size_t t = 0; t < outer_surface.surface.triangles.size(); ++t) {
+    const Vec3 face = 0.5 * geometry::twice_area(outer_surface.surface, static_cast<int>(t));
+    for (const int vertex : outer_surface.surface.triangles[t])
       stretch += displacement.segment<3>(3 * node(vertex)).cwiseProduct(face) / 3.0;
   }
   stretch /= geometry::volume(mesh);

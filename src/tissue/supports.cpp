@@ -15,7 +15,7 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double 
   for (const Vec3& node : mesh.nodes) low = std::min(low, height(node));
   std::vector<int> nodes;
   const double rounding = 1e-9 * geometry::diagonal(mesh);
-  for (const int node : geometry::skin(mesh).nodes)
+  for (const int node : geometry::outer_surface(mesh).nodes)
     if (height(mesh.nodes[as_index(node)]) <= low + std::max(0.0, base_height) + rounding)
       nodes.push_back(node);
   const auto hold = [&](int node, int axis) { held[as_index(3 * node + axis)] = 1; };

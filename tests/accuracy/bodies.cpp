@@ -1,4 +1,4 @@
-// The table of discs, domes and lumps in docs/accuracy.md.
+// The table of discs, domes and inclusions in docs/accuracy.md.
 #include "accuracy/bodies.h"
 
 #include <algorithm>
@@ -39,9 +39,11 @@ std::string cell(const test::Body& body, const std::string& model, int nodes,
 
 void bodies_table() {
   std::printf(
-      "\n## Discs, domes and lumps\n\nThe largest error at depths of up to a tenth of the finger's "
+      "\n## Discs, domes and inclusions\n\nThe largest error at depths of up to a tenth of the "
+      "finger's "
       "radius and of the thickness, in percent of the nearer edge of\nthe band, and in brackets "
-      "what the mesh states (theory.md `[sinking]`). The band is that of linear elasticity and of "
+      "what the mesh states (theory.md `[compliance]`). The band is that of linear elasticity and "
+      "of "
       "a neo-Hookean "
       "solid\n([tests/cases/bodies.csv](../tests/cases/bodies.csv)). All bodies are surface files; "
       "the default mesh is refined where its\nerror comes from. `lump-x20` has a ball of 5 mm, 20 "

@@ -1,4 +1,4 @@
-// The table of discs, domes and lumps in docs/accuracy.md.
+// The table of discs, domes and inclusions in docs/accuracy.md.
 #pragma once
 
 namespace palpate {

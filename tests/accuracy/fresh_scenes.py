@@ -9,7 +9,7 @@ import random
 import gmsh
 
 KINDS = ("block", "edge", "corner", "cylinder or ellipsoid", "cylinder's end", "convex file", "concave file",
-         "hollow file", "stiff lump", "soft lump", "two lumps", "soft on stiff", "stiff on soft", "deep",
+         "hollow file", "stiff inclusion", "soft inclusion", "two inclusions", "soft on stiff", "stiff on soft", "deep",
          "elastic finger", "several spheres", "viscous hold", "tap")
 NOT_FOR_CALCULIX = ("several spheres", "tap")
 FACET = 2.2  # mm, edges of the triangles of files
@@ -76,14 +76,14 @@ def stack(rng, radius, soft_above):
 def lumps(rng, radius, kind):
     made = block(rng, radius, 2, 3.2)
     made["lumps"] = []
-    sides = (-1, 1) if kind == "two lumps" else (1,)
+    sides = (-1, 1) if kind == "two inclusions" else (1,)
     for side in sides:
         lump = rng.uniform(0.3, 0.5) * radius
         x = made["at"][0] + (side * (lump + rng.uniform(0.08, 0.4) * radius) if len(sides) > 1
                              else rng.uniform(-0.5, 0.5) * radius)
         middle = (x, made["at"][1] + rng.uniform(-0.4, 0.4) * radius,
                   made["size"][2] - lump - rng.uniform(0.2, 0.6) * radius)
-        made["lumps"].append([middle, lump, rng.uniform(0.1, 0.5) if kind == "soft lump" else rng.uniform(3, 15)])
+        made["lumps"].append([middle, lump, rng.uniform(0.1, 0.5) if kind == "soft inclusion" else rng.uniform(3, 15)])
     return made
 
 
@@ -101,7 +101,7 @@ def draw(seed, number):
         across = rng.uniform(1.6, 3) * radius
         scene = {"body": "cylinder", "size": (across, rng.uniform(5, 8) * radius),
                  "at": (across, rng.uniform(0.7, 2.0) * contact)}
-    elif "lump" in kind:
+    elif "inclusion" in kind:
         scene = lumps(rng, radius, kind)
     elif " on " in kind:
         scene = stack(rng, radius, kind == "soft on stiff")

@@ -1,4 +1,4 @@
-// Prints tables of docs/accuracy.md: every rung's error on blocks, in uniform tests and on the
+// Prints tables of docs/accuracy.md: every model's error on blocks, in uniform tests and on the
 // scenes of `auto`. No test: it takes minutes. `./dev accuracy` runs it.
 #include <algorithm>
 #include <cmath>
@@ -66,9 +66,9 @@ void blocks_table() {
   for (const test::Block& block : test::blocks()) {
     const auto hertz = block_error(block, "hertz", meshes[0].text);
     const auto layer = block_error(block, "layer", meshes[0].text);
-    const std::pair<const char*, const char*> rungs[] = {
+    const std::pair<const char*, const char*> model_traits[] = {
         {"mass_spring", "none"}, {"mass_spring", "nodal"}, {"coupled_springs", "nodal"}};
-    for (const auto& [model, volume] : rungs) {
+    for (const auto& [model, volume] : model_traits) {
       const bool first = volume == std::string("none");
       std::printf("| %s | %s | %s | %s%s |", first ? block.name.c_str() : "",
                   first ? percent(hertz).c_str() : "", first ? percent(layer).c_str() : "", model,
@@ -101,9 +101,9 @@ void figure(const std::string& path) {
       const double middle = 0.5 * (row.low + row.high);
       std::string plots;
       int series = 0;
-      const std::pair<const char*, const char*> rungs[] = {
+      const std::pair<const char*, const char*> model_traits[] = {
           {"mass_spring", "none"}, {"mass_spring", "nodal"}, {"coupled_springs", "nodal"}};
-      for (const auto& [model, volume] : rungs) {
+      for (const auto& [model, volume] : model_traits) {
         std::fprintf(file, "$d%zu%d << EOD\n", b, series);
         for (const int nodes : {164, 400, 728, 1500, 3000}) {
           auto settings = block.settings;
@@ -209,22 +209,23 @@ void auto_table() {
       "the reference are\nin percent of the largest force, or of the largest strain of a uniform "
       "test. Predicted errors are in brackets.\nThe reference is that of `palpate chart`.\n\n"
       "| scene | reference | its error |");
-  std::vector<scenario::Rung> rungs;
-  std::copy_if(scenario::ladder.begin(), scenario::ladder.end(), std::back_inserter(rungs),
-               [](const scenario::Rung& rung) { return !rung.solid; });
-  for (const scenario::Rung& rung : rungs) std::printf(" %s |", rung.word);
+  std::vector<scenario::ModelTraits> model_traits;
+  std::copy_if(scenario::model_table.begin(), scenario::model_table.end(),
+               std::back_inserter(model_traits),
+               [](const scenario::ModelTraits& traits) { return !traits.solid; });
+  for (const scenario::ModelTraits& traits : model_traits) std::printf(" %s |", traits.word);
   std::printf(" taken |\n|---|---|---|");
-  for (std::size_t i = 0; i < rungs.size(); ++i) std::printf("---|");
+  for (std::size_t i = 0; i < model_traits.size(); ++i) std::printf("---|");
   std::printf("---|\n");
   for (const test::AutoScene& one : test::auto_scenes()) {
     const auto family = scenario::parse(one.text, "scene.toml", {});
     const auto chosen = run::build_scene(family.cases.front(), family);
     const Reference truth = reference(one, chosen);
     std::printf("| %s | %s | %s |", one.name, truth.kind.c_str(), percent(truth.error).c_str());
-    for (const scenario::Rung& each : rungs) {
-      const scene::Forecast* rung = chosen.choice.forecast(each.of);
+    for (const scenario::ModelTraits& each : model_traits) {
+      const scene::Forecast* traits = chosen.choice.forecast(each.of);
       std::optional<double> error;
-      if (rung != nullptr) {
+      if (traits != nullptr) {
         try {
           auto as_taken = family;
           scenario::Scenario& asked = as_taken.cases.front().scenario;
@@ -237,9 +238,9 @@ void auto_table() {
         }
       }
       std::printf(" %s%s |", percent(error).c_str(),
-                  rung != nullptr ? (" (" + percent(rung->error) + ")").c_str() : "");
+                  traits != nullptr ? (" (" + percent(traits->error) + ")").c_str() : "");
     }
-    std::printf(" %s |\n", scenario::rung(chosen.scenario.solver.model).word);
+    std::printf(" %s |\n", scenario::traits(chosen.scenario.solver.model).word);
     std::fflush(stdout);
   }
 }

@@ -1,5 +1,5 @@
-// How often the truth lies inside the 95 % interval, rung by rung. No test: it prints the table of
-// docs/identify.md. `palpate-coverage [REPEATS] [SCENE | rho=R | interval=TIME]...`; rho is the
+// How often the truth lies inside the 95 % interval, model by model. No test: it prints the table
+// of docs/identify.md. `palpate-coverage [REPEATS] [SCENE | rho=R | interval=TIME]...`; rho is the
 // correlation of the noise of neighbouring points, and the interval that of the rows.
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,5 @@
 // One kernel, so many times: what valgrind counts the instructions of, set-up and the first twenty
-// calls left out. `palpate-instructions` alone lists the kernels; `palpate-instructions KERNEL
+// calls excluded. `palpate-instructions` alone lists the kernels; `palpate-instructions KERNEL
 // TIMES` runs one, under `valgrind --tool=callgrind --instr-atstart=no`.
 #include <valgrind/callgrind.h>
 

@@ -157,7 +157,7 @@ def processes_of(session):
 
 
 def files_in(folder):
-    """The hashes of all files, by name; numbers of processes in names are left out."""
+    """The hashes of all files, by name; numbers of processes in names are excluded."""
     found = {}
     for above, folders, names in os.walk(folder):
         folders[:] = [one for one in folders if one != ".git"]

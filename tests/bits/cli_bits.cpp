@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(every, BitsOf,
                                                                   {"resolved"})),
                                           testing::Values("kelvin_voigt", "standard_linear_solid")),
                          name_of);
-// `quasi_static` has no drag against the ground.
+// `quasi_static` has no nodal drag.
 INSTANTIATE_TEST_SUITE_P(
     drag, BitsOf,
     testing::Combine(testing::ValuesIn(every(scenario::words::integrators, {"quasi_static"})),

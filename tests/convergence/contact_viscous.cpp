@@ -302,7 +302,7 @@ class HalfSpace {
     return p.dot(area_);
   }
 
-  [[nodiscard]] double sinking_in_the_middle() const { return u_[0]; }
+  [[nodiscard]] double surface_displacement_in_the_middle() const { return u_[0]; }
 
  private:
   Relaxation relaxation_;
@@ -328,7 +328,8 @@ TEST(ViscousContact, IsWhatAHalfSpaceDoes) {
       ++seen[static_cast<std::size_t>(contact.edge())];
       if (contact.edge() != ContactEdge::apart) continue;
       // The innermost annulus is not quite the middle.
-      EXPECT_NEAR(half_space.sinking_in_the_middle(), contact.surface_depth(), 1e-4) << i;
+      EXPECT_NEAR(half_space.surface_displacement_in_the_middle(), contact.surface_depth(), 1e-4)
+          << i;
     }
     for (const ContactEdge edge :
          {ContactEdge::apart, ContactEdge::growing, ContactEdge::shrinking, ContactEdge::returning})

@@ -47,7 +47,7 @@ Errors at_vertices(const Known& body, const Part& part, const CurvatureOptions& 
 }
 
 // In the middle of every triangle, against the surface above it; `foot` brings a point there.
-Errors at_centres(const Known& body, const std::function<Vec3(const Vec3&)>& foot) {
+Errors at_centres(const Known& body, const std::function<Vec3(const Vec3&)>& closest_point) {
   const CurvatureStars stars(body.surface, Neighbours(body.surface));
   Errors errors;
   for (std::size_t t = 0; t < body.surface.triangles.size(); ++t) {
@@ -56,7 +56,8 @@ Errors at_centres(const Known& body, const std::function<Vec3(const Vec3&)>& foo
     Vec3 centre = Vec3::Zero();
     for (const int v : body.surface.triangles[t])
       centre += body.surface.vertices[static_cast<std::size_t>(v)] / 3.0;
-    if (found.status == StarStatus::full) errors.add(found.curvature, body.kappas(foot(centre)));
+    if (found.status == StarStatus::full)
+      errors.add(found.curvature, body.kappas(closest_point(centre)));
   }
   return errors;
 }

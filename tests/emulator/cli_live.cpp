@@ -273,7 +273,7 @@ TEST(LiveArm, SaysWhatLateFramesLeftOut) {
     running.send(SIGINT);
     const test::Ended ended = running.wait();
     if (test::link_was_lost(ended)) continue;
-    EXPECT_TRUE(has(ended.err, "left out of the model's time")) << ended.err;
+    EXPECT_TRUE(has(ended.err, "dropped from the model's time")) << ended.err;
     return;
   }
   FAIL() << "the machine stood still in each of " << test::runs_by_the_clock << " runs";

@@ -1,4 +1,4 @@
-// Every rung on blocks against an independent finite-element program.
+// Every model on blocks against an independent finite-element program.
 #include "blocks.h"
 
 #include <gtest/gtest.h>

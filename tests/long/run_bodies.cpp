@@ -213,8 +213,8 @@ record::CaseRecord pressed_disc(double spacing, int nodes) {
 }
 
 bool says(const record::CaseRecord& record, const std::string& words) {
-  return std::any_of(record.remarks.begin(), record.remarks.end(),
-                     [&](const auto& remark) { return remark.find(words) != std::string::npos; });
+  return std::any_of(record.warnings.begin(), record.warnings.end(),
+                     [&](const auto& warning) { return warning.find(words) != std::string::npos; });
 }
 
 // By default a mesh has 728 nodes; this surface alone has 27 000 vertices.

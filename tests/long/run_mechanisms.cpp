@@ -54,7 +54,7 @@ std::map<std::string, std::set<std::string>> reached() {
         note("solver.volume", words::volumes, run.solver.volume);
         note("solver.kinematics", words::kinematics_words, run.solver.kinematics);
         note("tissue.viscosity", words::viscosities, run.tissue.viscosity);
-        if (scenario::rung(run.solver.model).independent())
+        if (scenario::traits(run.solver.model).independent())
           note("solver.stiffness", words::stiffnesses, run.solver.stiffness);
       }
       if (run.uniform()) continue;

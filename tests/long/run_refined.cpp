@@ -87,8 +87,8 @@ TEST(Refined, StopsAtTheStatedNumberOfNodesAndSaysSo) {
       "tolerance = 0.001\n"));
   EXPECT_LE(std::get<double>(test::finding(record, "nodes")), 250.0);
   EXPECT_EQ(std::get<double>(test::finding(record, "nodes_before_refining")), 140.0);
-  EXPECT_TRUE(std::any_of(record.remarks.begin(), record.remarks.end(), [](const auto& remark) {
-    return remark.find("raise `tissue.mesh.most_nodes`") != std::string::npos;
+  EXPECT_TRUE(std::any_of(record.warnings.begin(), record.warnings.end(), [](const auto& warning) {
+    return warning.find("raise `tissue.mesh.most_nodes`") != std::string::npos;
   }));
 }
 

@@ -73,7 +73,8 @@ struct Pressed {
       if (away.z() < -2.0 * radius || square >= radius * radius) continue;
       if (vertices[v].z() < scene.specimen->high.z() - 1e-9) continue;
       const double bottom = centre.z() - std::sqrt(radius * radius - square);
-      all[static_cast<int>(v)] = bottom - vertices[v].z() - moved[3 * scene.specimen->skin[v] + 2];
+      all[static_cast<int>(v)] =
+          bottom - vertices[v].z() - moved[3 * scene.specimen->outer_surface[v] + 2];
     }
     return all;
   }
@@ -83,7 +84,7 @@ TEST(Resolved, nodes_touch_or_are_free_and_none_pulls_or_overlaps) {
   Pressed pressed({}, 1.5e-3);
   ASSERT_EQ(pressed.touch.contacts.size(), 1u);
   const mechanics::SphereContact& contact = pressed.touch.contacts.front();
-  const mechanics::SkinNodes nodes(*pressed.scene.specimen->surface);
+  const mechanics::SurfaceNodes nodes(*pressed.scene.specimen->surface);
   std::map<int, double> share;
   for (std::size_t k = 0; k < contact.load.vertices.size(); ++k)
     share[contact.load.vertices[k]] = contact.load.shares[k];
@@ -105,7 +106,7 @@ TEST(Resolved, nodes_touch_or_are_free_and_none_pulls_or_overlaps) {
 }
 
 TEST(Resolved, the_base_carries_what_the_finger_presses_with) {
-  for (const char* direction : {"skin", "sphere"}) {
+  for (const char* direction : {"surface", "sphere"}) {
     Pressed pressed({std::string("contact.direction=") + direction}, 1.5e-3);
     const auto& body = pressed.mesh.body();
     Vector force;
@@ -166,10 +167,10 @@ TEST(Resolved, both_directions_are_the_same_for_shallow_presses_and_differ_for_d
   const auto ratio = [&](const std::string& travel) {
     auto settings = fine;
     settings.push_back("step.1.to=" + travel);
-    settings.emplace_back("contact.direction=skin");
-    const double skin = last_force(settings);
+    settings.emplace_back("contact.direction=surface");
+    const double outer_surface = last_force(settings);
     settings.back() = "contact.direction=sphere";
-    return last_force(settings) / skin;
+    return last_force(settings) / outer_surface;
   };
   const double shallow = ratio("0.3 mm") - 1.0;
   const double deep = ratio("1.5 mm") - 1.0;
@@ -187,7 +188,7 @@ TEST(Resolved, nonlinear_springs_take_the_spheres_normals_and_agree_with_linear_
     const double linear = last_force(settings);
     settings.back() = "solver.kinematics=nonlinear";
     const double nonlinear = last_force(settings);
-    settings.emplace_back("contact.direction=skin");
+    settings.emplace_back("contact.direction=surface");
     EXPECT_NE(last_force(settings), nonlinear);
     return 1.0 - nonlinear / linear;
   };

@@ -19,11 +19,11 @@ constexpr double young_modulus = 72.4e3;  // Pa
 double shear_modulus(double nu) { return 0.5 * young_modulus / (1.0 + nu); }
 
 contact::Patch patch_of(const scene::Scene& scene, double radius) {
-  const geometry::SmoothSurface& skin = *scene.specimen->surface;
+  const geometry::SmoothSurface& outer_surface = *scene.specimen->surface;
   contact::Patch patch;
   patch.at = scene::first_touch(scene).at;
-  patch.position = skin.position(patch.at);
-  patch.normal = skin.normal(patch.at);
+  patch.position = outer_surface.position(patch.at);
+  patch.normal = outer_surface.normal(patch.at);
   patch.axis = Vec3::UnitX();
   patch.a = patch.b = radius;
   return patch;
@@ -33,7 +33,8 @@ contact::Patch patch_of(const scene::Scene& scene, double radius) {
 Eigen::Matrix3d shear_of(const std::string& text, double radius) {
   const scene::Scene scene = test::scene_of(text + "[contact]\nfriction = 0.3\n");
   const tissue::Part part = tissue::whole_part(scene.specimen->network);
-  mechanics::BodySinking beyond(scene, part, scene.specimen->held, radius * radius / 11e-3);
+  mechanics::BodySurfaceDisplacement beyond(scene, part, scene.specimen->held,
+                                            radius * radius / 11e-3);
   return beyond.shear(patch_of(scene, radius));
 }
 

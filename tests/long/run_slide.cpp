@@ -124,10 +124,10 @@ TEST(Slide, LeavesTheRimWithoutForce) {
 }
 
 TEST(Slide, SticksAsCattaneoAndMindlinSayAndThenSlips) {
-  for (const char* rung :
+  for (const char* traits :
        {"solver.model=hertz", "contact.coupling=one_way", "contact.coupling=consistent"}) {
-    const Settings settings{"contact.friction=0.5", "step.2.by=1 mm", rung};
-    const bool meshed = std::string(rung) != "solver.model=hertz";
+    const Settings settings{"contact.friction=0.5", "step.2.by=1 mm", traits};
+    const bool meshed = std::string(traits) != "solver.model=hertz";
     const scene::Scene scene = build_slide(settings, meshed ? slide : slide_closed_form);
     const auto record = run_slide(settings, meshed ? slide : slide_closed_form);
     ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
@@ -159,19 +159,19 @@ TEST(Slide, SticksAsCattaneoAndMindlinSayAndThenSlips) {
         // The axes of a body beside its middle are not exactly along the slide.
         EXPECT_NEAR((stick.displacement + beyond * row.tangential) / row.slide, 1.0,
                     beyond == 0.0 ? 1e-9 : 1e-5)
-            << rung << row.slide;
+            << traits << row.slide;
       } else if (row.slide > 1.001 * whole) {
         ++slipping;
-        EXPECT_NEAR(row.tangential / limit, 1.0, 1e-9) << rung << row.slide;
+        EXPECT_NEAR(row.tangential / limit, 1.0, 1e-9) << traits << row.slide;
       }
     }
-    EXPECT_GT(sticking, 3) << rung;
-    EXPECT_GT(slipping, 3) << rung;
+    EXPECT_GT(sticking, 3) << traits;
+    EXPECT_GT(slipping, 3) << traits;
   }
 }
 
 TEST(Slide, StickHasTheIndependentNumbers) {
-  // Skin at 1 mm, mu 0.5, Q half of mu F.
+  // OuterSurface at 1 mm, mu 0.5, Q half of mu F.
   const scene::Scene scene = build_slide({"contact.friction=0.5"}, slide_closed_form);
   const double force =
       contact::hertz::force(1e-3, scene.finger.sphere_radius, scene.finger.sphere_modulus);

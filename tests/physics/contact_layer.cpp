@@ -64,7 +64,7 @@ double bessel_0(double x) {
 
 // How a half-space of lambda = 1 sinks at r under rings of pressure p(t), t < 1:
 // 4/pi int p t K(k)/(r + t) dt, and K(k)/(r + t) is pi/2 over a mean of r + t and |r - t|.
-double half_space_sinking(const std::function<double(double)>& p, double r) {
+double half_space_surface_displacement(const std::function<double(double)>& p, double r) {
   const auto ring = [&](double t) {
     double a = r + t, g = std::abs(r - t);
     for (int pass = 0; pass < 40 && a - g > 1e-15 * a; ++pass) {
@@ -78,7 +78,7 @@ double half_space_sinking(const std::function<double(double)>& p, double r) {
 }
 
 // L(u) of the layer, as it stands in the books.
-double sinking_of_wave(const Layer& layer, double u) {
+double surface_displacement_of_wave(const Layer& layer, double u) {
   if (layer.base == LayerBase::frictionless)
     return (std::cosh(2.0 * u) - 1.0) / (std::sinh(2.0 * u) + 2.0 * u);
   const double k = 3.0 - 4.0 * layer.poisson_ratio;
@@ -113,11 +113,11 @@ TEST(LayerPressure, MakesLayerAndFingerFit) {
         lessened += (k == waves   ? 1.0
                      : k % 2 == 1 ? 4.0
                                   : 2.0) *
-                    (1.0 - sinking_of_wave(layer, u)) * transform[static_cast<std::size_t>(k)] *
-                    bessel_0(ratio * u * r);
+                    (1.0 - surface_displacement_of_wave(layer, u)) *
+                    transform[static_cast<std::size_t>(k)] * bessel_0(ratio * u * r);
       }
       lessened *= 2.0 * ratio * last / waves / 3.0;
-      const double alike = half_space_sinking(p, r);
+      const double alike = half_space_surface_displacement(p, r);
       const double sunk = lambda_1 * alike + lambda_2 * (alike - lessened);
       // Simpson's rule is the coarsest part: 2e-7, and a sixteenth with twice the waves.
       EXPECT_NEAR(sunk, contact.depth - 0.5 * r * r, 5e-7) << name(layer) << " r " << r;

@@ -99,8 +99,8 @@ TEST(Starters, InertiaIsStatedWithItsRinging) {
   ASSERT_TRUE(scene.choice.taken());
   EXPECT_GE(scene.choice.taken()->error, 0.5);  // E_inf / E_0
   bool said = false;
-  for (const std::string& remark : record.remarks)
-    said = said || remark.find("rings with a period") != std::string::npos;
+  for (const std::string& warning : record.warnings)
+    said = said || warning.find("rings with a period") != std::string::npos;
   EXPECT_TRUE(said);
   double largest = 0.0;
   for (const auto& row : record.strain)

@@ -85,7 +85,7 @@ Expected expected_widths(const IdentifyScene& scene) {
 }
 
 // So few or so many inside happen to a right interval once in a thousand times on either side; the
-// noise is the same every time. Few repeats can show gross faults only: hundreds, of every rung,
+// noise is the same every time. Few repeats can show gross faults only: hundreds, of every model,
 // are in docs/identify.md, by tests/bench/coverage.cpp.
 void expect_covered(const char* name, int repeats) {
   const IdentifyScene& scene = test::identify_scene(name);
@@ -102,7 +102,7 @@ void expect_covered(const char* name, int repeats) {
           << name << ": " << scene.unknowns[i] << ": " << inside;
     }
     // Four standard errors of a mean of deviations of nu degrees, 1 / sqrt(2 nu) each; and 0.15
-    // for what the linearised width leaves out, which is a curved model and the widening by
+    // for what the linearised width excludes, which is a curved model and the widening by
     // residuals that are correlated by chance, [sample_size]: one curve in twenty, and by much, so
     // that few repeats do not show its mean.
     const double width = unknowns[i].shown(expected.widths[i]) - unknowns[i].shown(0.0);

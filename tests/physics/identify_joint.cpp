@@ -74,7 +74,7 @@ TEST(IdentifyJoint, OneRadiusDoesNot) {
   for (const char* radius : {"2 mm", "20 mm"}) {
     Joint one{{layer_press(radius)}, elastic};
     const auto found = one.found(1, {.profiles = false});
-    EXPECT_TRUE(found.unknowns[0].tied && found.unknowns[1].tied) << radius;
+    EXPECT_TRUE(found.unknowns[0].inseparable && found.unknowns[1].inseparable) << radius;
     ASSERT_EQ(found.combinations.size(), 1U);
     // The combination's interval contains its truth and the model's stated error.
     EXPECT_GT(found.combinations[0].ci95_high / found.combinations[0].estimate,
@@ -94,7 +94,7 @@ TEST(IdentifyJoint, OneRadiusDoesNot) {
   // The same press twice says no more than once.
   Joint twice{{layer_press("2 mm"), layer_press("2 mm")}, elastic};
   const auto found = twice.found(1, {.profiles = false});
-  EXPECT_TRUE(found.unknowns[0].tied && found.unknowns[1].tied);
+  EXPECT_TRUE(found.unknowns[0].inseparable && found.unknowns[1].inseparable);
 }
 
 // A test with forty times the noise of another adds little to what both say.

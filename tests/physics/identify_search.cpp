@@ -55,7 +55,7 @@ TEST(Identify, HertzOnALayerIsBiasedAndTheLayerCuresIt) {
   EXPECT_GT(*right.unknowns[0].profile_high, 60e3);
 }
 
-TEST(Identify, ModulusAndPoissonsRatioOfOneCurveAreTied) {
+TEST(Identify, ModulusAndPoissonsRatioOfOneCurveAreInseparable) {
   auto scene =
       with_unknowns("hertz", {"tissue.young_modulus=1..500 kPa", "tissue.poisson_ratio=0.2..0.49",
                               "contact_point=-0.1..0.6 mm"});
@@ -63,14 +63,14 @@ TEST(Identify, ModulusAndPoissonsRatioOfOneCurveAreTied) {
   scene.truth.push_back(linear);
   const auto found =
       test::identified(scene, test::noisy(test::clean_curve(scene), 0.01, 3), {}, {linear});
-  EXPECT_TRUE(found.unknowns[0].tied);
-  EXPECT_TRUE(found.unknowns[1].tied);
-  EXPECT_FALSE(found.unknowns[2].tied);
+  EXPECT_TRUE(found.unknowns[0].inseparable);
+  EXPECT_TRUE(found.unknowns[1].inseparable);
+  EXPECT_FALSE(found.unknowns[2].inseparable);
   const record::Table table = identify::identified_table(found);
   const auto estimate = static_cast<std::size_t>(table.find("estimate"));
-  for (const int tied : {0, 1})  // no number stands for them
+  for (const int inseparable : {0, 1})  // no number stands for them
     EXPECT_TRUE(std::holds_alternative<std::monostate>(
-        table.rows[static_cast<std::size_t>(tied)][estimate]));
+        table.rows[static_cast<std::size_t>(inseparable)][estimate]));
   ASSERT_EQ(found.combinations.size(), 1U);
   const identify::Combination& one = found.combinations[0];
   EXPECT_EQ(one.text, "tissue.young_modulus / (1 - tissue.poisson_ratio^2)");
@@ -81,7 +81,7 @@ TEST(Identify, ModulusAndPoissonsRatioOfOneCurveAreTied) {
   EXPECT_LT(one.ci95_high / one.ci95_low, 1.1 * std::exp(2.0 * *found.predicted_error));
 }
 
-TEST(Identify, ModulusAndStressOfACreepAreTiedAsARatio) {
+TEST(Identify, OfACreepOnlyTheRatioOfModulusAndStressIsDetermined) {
   const auto scene =
       with_unknowns("creep", {"tissue.young_modulus=1..500 kPa", "step.1.stress=10..1000 Pa"});
   const auto found =
@@ -103,7 +103,7 @@ TEST(Identify, SlopesAgree) {
     const auto curve = test::clean_curve(scene);
     const auto family = scenario::parse(scene.text, "test.toml", {});
     const auto unknowns = identify::read_unknowns(scene.unknowns, family.cases.front().scenario);
-    identify::FixedRung fixed{.one = family.cases.front()};
+    identify::FixedModel fixed{.one = family.cases.front()};
     fixed.one.scenario.output.pressure_maps = false;
     fixed.one.scenario.contact.depth = scenario::Contact::Depth::hertz;
     fixed.one.scenario.solver.integrator = scenario::Solver::Integrator::quasi_static;
@@ -367,7 +367,7 @@ TEST(Identify, RefusesWhatTheDataCannotAnswer) {
   EXPECT_EQ(
       refusal(scene, few),
       "palpate: 2 usable points cannot determine 2 unknowns and the noise; record more points, or "
-      "leave out an `--unknown`");
+      "remove an `--unknown`");
   identify::Measurement flat = curve;
   std::fill(flat.y.begin(), flat.y.end(), 0.5);
   EXPECT_NE(refusal(scene, flat).find("is the same at every point"), std::string::npos);
@@ -398,8 +398,8 @@ TEST(Identify, SaysWhichPointsAreLeftOut) {
   const auto found = test::identified(scene, curve, {.profiles = false});
   ASSERT_EQ(found.notes.size(), 1U);
   EXPECT_EQ(found.notes[0], std::to_string(points) +
-                                " points are left out: the way back from the largest displacement");
-  EXPECT_EQ(found.left_out, static_cast<int>(points));
+                                " points are excluded: the way back from the largest displacement");
+  EXPECT_EQ(found.excluded, static_cast<int>(points));
   EXPECT_EQ(found.x.size(), points);  // up to 2.2 mm, where the deepest stands twice
 }
 
@@ -414,7 +414,7 @@ TEST(Identify, ALongerHoldIsLengthenedAndAWithdrawalIsLeftOut) {
       longer.y.push_back(part * curve.y.back());
     }
     const auto found = test::identified(scene, longer, {.searches = 1, .profiles = false});
-    EXPECT_EQ(found.left_out, part == 0.0 ? 20 : 0);
+    EXPECT_EQ(found.excluded, part == 0.0 ? 20 : 0);
   }
 }
 
@@ -429,7 +429,7 @@ TEST(Identify, TheOffsetIsInTheScenario) {
 }
 
 // Of a compression and its hold, over time all points are taken and the programme is long enough;
-// over strain the hold is left out.
+// over strain the hold is excluded.
 TEST(Identify, TakesACompressionOverTimeOrStrain) {
   const IdentifyScene& over_time = test::identify_scene("compression");
   const auto whole = test::identified(over_time, test::clean_curve(over_time), {.profiles = false});
@@ -441,9 +441,9 @@ TEST(Identify, TakesACompressionOverTimeOrStrain) {
   const IdentifyScene& over_strain = test::identify_scene("compression over strain");
   const identify::Measurement curve = test::clean_curve(over_strain);
   const auto loading = test::identified(over_strain, curve, {.profiles = false});
-  EXPECT_EQ(loading.left_out + static_cast<int>(loading.x.size()),
+  EXPECT_EQ(loading.excluded + static_cast<int>(loading.x.size()),
             static_cast<int>(curve.x.size()));
-  EXPECT_GT(loading.left_out, static_cast<int>(loading.x.size()));
+  EXPECT_GT(loading.excluded, static_cast<int>(loading.x.size()));
   EXPECT_NEAR(loading.unknowns[0].estimate, over_strain.true_values[0],
               1e-6 * over_strain.true_values[0]);
 }
@@ -458,7 +458,7 @@ TEST(Identify, AShortProgrammeIsLengthened) {
   const auto found = test::identified(scene, curve, {.profiles = false},
                                       {"step.1.to=0.5 mm", "contact.depth=hertz"});
   EXPECT_EQ(found.x.size(), curve.x.size());
-  EXPECT_EQ(found.left_out, 0);
+  EXPECT_EQ(found.excluded, 0);
   EXPECT_NEAR(found.unknowns[0].estimate, 60e3, 1e-6 * 60e3);  // exact data
   ASSERT_FALSE(found.notes.empty());
   EXPECT_TRUE(
@@ -494,7 +494,7 @@ TEST(Identify, AnUncertainRadiusWidensTheInterval) {
             "`finger.radius=11 mm +- 0.2 mm`");
 }
 
-// A curve that an interrupt leaves out looks like one that the data do not determine. Whenever the
+// A curve that an interrupt excludes looks like one that the data do not determine. Whenever the
 // interrupt comes, there is the whole result or none.
 TEST(Identify, AnInterruptLeavesTheWholeResultOrNone) {
   const IdentifyScene& scene = test::identify_scene("creep of springs");

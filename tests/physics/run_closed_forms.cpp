@@ -1,4 +1,4 @@
-// The rungs without a mesh, from a scenario to its rows: layers, deep presses, viscous contact.
+// The models without a mesh, from a scenario to its rows: layers, deep presses, viscous contact.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -172,9 +172,10 @@ TEST(Contacts, NearlyConformingTissueIsSaid) {
     const auto record =
         run_press({"tissue.shape={ kind = \"half_space\", curvature = \"" + curvature + "\" }"},
                   press_closed_form);
-    return std::any_of(record.remarks.begin(), record.remarks.end(), [](const std::string& remark) {
-      return remark.find("hollow beyond half") != std::string::npos;
-    });
+    return std::any_of(record.warnings.begin(), record.warnings.end(),
+                       [](const std::string& warning) {
+                         return warning.find("hollow beyond half") != std::string::npos;
+                       });
   };
   EXPECT_FALSE(said("-45 1/m"));  // the limit is 1 / (2 * 11 mm)
   EXPECT_TRUE(said("-46 1/m"));
@@ -318,10 +319,11 @@ TEST(PressureMap, GapIsHertzs) {
     const double r = std::hypot(map.origin.x() + column * map.pitch - contact.patch.position.x(),
                                 map.origin.y() + row * map.pitch - contact.patch.position.y());
     if (r <= 1.01 * a) continue;
-    const double sinking =
+    const double surface_displacement =
         ((2.0 * a * a - r * r) * std::asin(a / r) + a * std::sqrt(r * r - a * a)) /
         (3.14159265358979324 * radius);
-    EXPECT_NEAR(map.gap[i], r * r / (2.0 * radius) - 1e-3 + sinking, 1e-10) << r;  // floats
+    EXPECT_NEAR(map.gap[i], r * r / (2.0 * radius) - 1e-3 + surface_displacement, 1e-10)
+        << r;  // floats
   }
 }
 

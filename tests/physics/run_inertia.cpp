@@ -12,9 +12,10 @@
 namespace palpate {
 namespace {
 
-// Skin 60 x 60 x 30 mm without viscosity, rigid sphere of 11 mm, pressed by 1 mm at 100 mm/s and
-// held: `resolved` coupled springs on graded lattices of 2197, 4096 and 6859 nodes in implicit
-// steps of 0.025 ms, mean of the three (they differ by 0.3 to 2 %), force in mN at every ms.
+// OuterSurface 60 x 60 x 30 mm without viscosity, rigid sphere of 11 mm, pressed by 1 mm at 100
+// mm/s and held: `resolved` coupled springs on graded lattices of 2197, 4096 and 6859 nodes in
+// implicit steps of 0.025 ms, mean of the three (they differ by 0.3 to 2 %), force in mN at every
+// ms.
 constexpr double resolved[] = {0,     13.2,  35.7,  66.3,  100.3, 138.8, 181.5, 227.4, 278.6,
                                333.1, 389.4, 365.8, 370.2, 375.5, 382.1, 388.8, 394.4};
 

@@ -100,7 +100,7 @@ TEST(Press, NonlinearAgreesWithLinearForShallowPresses) {
 }
 
 // Travel at the Hertz force of 1 mm, rigid sphere of 11 mm on 60x60x30 mm at nu 0.33: converged
-// elasticity gives 0.926 to 0.945 mm (the design's brief); the mesh rungs may leave 5 %.
+// elasticity gives 0.926 to 0.945 mm (the design's brief); the mesh models may leave 5 %.
 TEST(Press, ConsistentCouplingDoesNotDependOnTheMesh) {
   for (const char* mesh :
        {"{ kind = \"kuhn\", cells = [3, 4, 6] }", "{ kind = \"mirrored\", cells = [3, 4, 6] }",
@@ -126,8 +126,8 @@ TEST(Press, SeriesLosesForceAndSaysSo) {
                                         "solver.integrator=quasi_static"});
   EXPECT_LT(force_at_travel(series, 1e-3), 0.9 * force_at_travel(one_way, 1e-3));
   bool warned = false;
-  for (const auto& remark : series.remarks)
-    warned = warned || remark.find("counts the tissue's compliance twice") != std::string::npos;
+  for (const auto& warning : series.warnings)
+    warned = warned || warning.find("counts the tissue's compliance twice") != std::string::npos;
   EXPECT_TRUE(warned);
 }
 
@@ -175,8 +175,8 @@ TEST(Press, RetractThatIsThereAlreadyDoesNothing) {
                                {"step.1.to=0.1 N", "solver.model=hertz"});
   EXPECT_EQ(record.outcome, record::Outcome::completed);
   EXPECT_EQ(record.contact.back().step, 1);
-  ASSERT_FALSE(record.remarks.empty());
-  EXPECT_NE(record.remarks.front().find("there already"), std::string::npos);
+  ASSERT_FALSE(record.warnings.empty());
+  EXPECT_NE(record.warnings.front().find("there already"), std::string::npos);
 }
 
 // Contact and mesh must not feed each other: with no damping at all, what waves the press has made

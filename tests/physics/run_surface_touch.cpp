@@ -134,7 +134,7 @@ TEST(SurfaceFile, HasOneForceFromAnySide) {
 }
 
 // The contact force as the derivative of its energy: the work of the vertical travel is what the
-// contact stores, 2/5 F h, up to the third order that the indentation leaves out.
+// contact stores, 2/5 F h, up to the third order that the indentation excludes.
 TEST(InclinedSurface, StoresTheWorkOfTheFinger) {
   const record::CaseRecord record =
       pressed("{ kind = \"cylinder\", radius = \"40 mm\", length = \"800 mm\" }", "65 mm", "hertz");

@@ -291,8 +291,8 @@ TEST(KelvinVoigtSpecimen, DoesNotRelaxAndSaysSo) {
                            "solver.integrator=quasi_static"});
   const double want = 0.02 * scene.specimen->measured.young_modulus;
   for (const auto& row : record.strain) EXPECT_NEAR(row.stress, want, 1e-9 * want);  // rounding
-  ASSERT_FALSE(record.remarks.empty());
-  EXPECT_NE(record.remarks.back().find("does not relax"), std::string::npos);
+  ASSERT_FALSE(record.warnings.empty());
+  EXPECT_NE(record.warnings.back().find("does not relax"), std::string::npos);
 }
 
 TEST(UniformSpecimen, NonlinearAgreesWithLinearForSmallLoads) {

@@ -23,17 +23,17 @@ scenario::Family family_of(const std::string& more = "") {
       "small.toml", {});
 }
 
-std::unique_ptr<ProbedBody> small(const RungOf& rung, const scenario::Family& family) {
+std::unique_ptr<ProbedBody> small(const ModelAndVolume& traits, const scenario::Family& family) {
   scene::SpecimenShapes shapes;
-  return make_probed_body(bare(family.cases.front(), rung.model, rung.volume), family, shapes);
+  return make_probed_body(bare(family.cases.front(), traits.model, traits.volume), family, shapes);
 }
 
 constexpr Viscosity forms[] = {Viscosity::none, Viscosity::nodal_drag, Viscosity::kelvin_voigt,
                                Viscosity::standard_linear_solid};
-constexpr RungOf rungs[] = {{Solver::Model::mass_spring, Solver::Volume::none},
-                            {Solver::Model::coupled_springs, Solver::Volume::nodal}};
+constexpr ModelAndVolume model_traits[] = {{Solver::Model::mass_spring, Solver::Volume::none},
+                                     {Solver::Model::coupled_springs, Solver::Volume::nodal}};
 
-class Limits : public testing::TestWithParam<RungOf> {};
+class Limits : public testing::TestWithParam<ModelAndVolume> {};
 
 TEST_P(Limits, EveryMethodAndDamping) {
   const scenario::Family family = family_of();
@@ -60,14 +60,14 @@ TEST_P(Limits, EveryMethodAndDamping) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(both, Limits, testing::ValuesIn(rungs), [](const auto& one) {
-  return std::string(scenario::rung(one.param.model).word);
+INSTANTIATE_TEST_SUITE_P(both, Limits, testing::ValuesIn(model_traits), [](const auto& one) {
+  return std::string(scenario::traits(one.param.model).word);
 });
 
 TEST(Limits, HighestModeIsTheNetworks) {
   const scenario::Family family = family_of();
-  for (const RungOf& rung : rungs) {
-    const auto probed = small(rung, family);
+  for (const ModelAndVolume& traits : model_traits) {
+    const auto probed = small(traits, family);
     const scene::Specimen& specimen = *probed->scene.specimen;
     const double squared = tissue::largest_frequency_squared(specimen.network, specimen.held);
     // Another iteration, to 1e-9 of the square; the network's adds up to 1e-6 of it.
@@ -87,7 +87,7 @@ TEST(Limits, HighestModeIsTheNetworks) {
 
 TEST(Limits, LowestModeBalances) {
   const scenario::Family family = family_of();
-  const auto probed = small(rungs[1], family);
+  const auto probed = small(model_traits[1], family);
   const BodyMode lowest = lowest_mode(*probed->elastic);
   integrate::Vector force;
   probed->elastic->force(lowest.shape, {}, force);
@@ -99,7 +99,7 @@ TEST(Limits, LowestModeBalances) {
 // An explicit contact stiffens the body it presses.
 TEST(Limits, WithAContact) {
   const scenario::Family family = family_of();
-  const auto probed = small(rungs[1], family);
+  const auto probed = small(model_traits[1], family);
   std::optional<ContactSpring> spring = contact_spring(*probed);
   ASSERT_TRUE(spring);
   // A unit force in all, downwards on a flat.

@@ -35,7 +35,7 @@ std::vector<const FailureRow*> of(const StabilityMap& map, Failure failure) {
 void expect_limits_by_theory(const StabilityMap& map) {
   std::set<std::string> axes;
   for (const LimitRow& row : map.limits) {
-    const std::string what = row.rung + " " + row.volume + " " + row.integrator + " " +
+    const std::string what = row.model + " " + row.volume + " " + row.integrator + " " +
                              row.damping + " " + row.axis + " " +
                              (row.value ? std::to_string(*row.value) : "");
     axes.insert(row.axis);
@@ -47,7 +47,7 @@ void expect_limits_by_theory(const StabilityMap& map) {
     ASSERT_TRUE(row.measured) << what;
     EXPECT_NE(row.failure, Failure::none) << what;
     const double ratio = *row.measured / *row.theory;
-    if (row.rung == "device")
+    if (row.model == "device")
       EXPECT_GE(ratio, 0.995) << what;  // any passive hand asks for more than none
     else
       EXPECT_NEAR(ratio, 1.0, 0.02) << what;  // what is promised
@@ -122,13 +122,13 @@ TEST(StabilityMap, LeavesOutMeshesThatCannotBeMade) {
   survey.one = &family.cases.front();
   survey.family = &family;
   survey.told = &tell;
-  survey.rung = rung_of(survey.one->scenario);
-  survey.own = survey.make_body(survey.rung);
+  survey.given = model_and_volume(survey.one->scenario);
+  survey.own = survey.make_body(survey.given);
   const StopScope scope(stop);
   EXPECT_THROW(survey_axes(survey), Stopped);
   ASSERT_FALSE(survey.map.sentences.empty());
   EXPECT_NE(
-      survey.map.sentences.front().find("Elements 2 times as long were left out: no mesh near"),
+      survey.map.sentences.front().find("Elements 2 times as long were excluded: no mesh near"),
       std::string::npos)
       << survey.map.sentences.front();
   int sizes = 0;

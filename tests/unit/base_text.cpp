@@ -65,6 +65,10 @@ TEST(Text, TheNearestWordIsSuggestedWhereOneIsNear) {
   EXPECT_EQ(nearest("sikn", known), "skin");
   EXPECT_EQ(nearest("musle", known), "muscle");
   EXPECT_EQ(nearest("upperleg", known), "upper_leg");
+  EXPECT_EQ(nearest("modulus", std::array<std::string, 2>{"density", "young_modulus"}),
+            "young_modulus");
+  EXPECT_EQ(nearest("ratio", std::array<std::string, 2>{"poisson_ratio", "instantaneous_ratio"}),
+            std::nullopt);
   EXPECT_EQ(nearest("BONE", known), "bone");
   EXPECT_FALSE(nearest("granite", known));
   EXPECT_FALSE(nearest("", known));

@@ -124,6 +124,11 @@ TEST(Units, EveryRefusalSaysWhatWasWantedAndOneRemedy) {
        "kg/m^3`?"},
       {"5 furlongs", unit::mm,
        "wants a length, got `5 furlongs` with the unknown unit `furlongs`; write it as `5 mm`"},
+      {"62.4 lb/ft3", unit::density,
+       "wants a density, got `62.4 lb/ft3` with the unknown unit `lb/ft3`; write it as "
+       "`999.552114535113 kg/m^3`"},
+      {"5 mph", unit::mm_per_s,
+       "wants a speed, got `5 mph` with the unknown unit `mph`; write it as `2235.2 mm/s`"},
       {"2 inch", unit::mm,
        "wants a length, got `2 inch` with the unknown unit `inch`; write it as `50.8 mm`"},
       {"10 psi", unit::kPa,

@@ -95,7 +95,7 @@ TEST_F(Design, EveryIntegratorTakesPart) {
       return one.group == "integrator x time step" &&
              std::find(one.settings.begin(), one.settings.end(), own) != one.settings.end();
     });
-    // Its own step may be one of the three, and may be there as a rung already.
+    // Its own step may be one of the three, and may be there as a model already.
     EXPECT_GE(count, 2) << word.word;
   }
   EXPECT_EQ(find(variants, "mass_spring, auto"), nullptr);
@@ -166,10 +166,10 @@ TEST_F(Design, AutoIsFreeInWhatTheScenarioNames) {
                       "contact.coupling=consistent", "contact.viscosity=none"}));
   EXPECT_EQ(variants[1].name, "as it stands");
   const auto family = with_settings(scene, 0, variants[0].settings);
-  scenario::Scenario left_out = family.cases.front().scenario;
-  EXPECT_TRUE(scenario::refinement(left_out.tissue.mesh).refine);
-  EXPECT_FALSE(left_out.solver.model || left_out.solver.integrator || left_out.solver.time_step ||
-               left_out.solver.rings);
+  scenario::Scenario neglected = family.cases.front().scenario;
+  EXPECT_TRUE(scenario::refinement(neglected.tissue.mesh).refine);
+  EXPECT_FALSE(neglected.solver.model || neglected.solver.integrator ||
+               neglected.solver.time_step || neglected.solver.rings);
 }
 
 // Large strains raise the force by 2 %: `auto` and a named layer include them, so that the scenario
@@ -245,7 +245,7 @@ TEST_F(Design, Refusals) {
             "one value, with `[sweep]` without it");
   EXPECT_EQ(refusal("[[step]]\nkind = \"indent\"\nto = \"1 N\"\n"),
             "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
-            "forces at equal travels; give a displacement");
+            "forces at equal displacements; give a displacement");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ CaseChart chart_of(const std::vector<Measurement>& rows, double own = 0.001) {
   return chart;
 }
 
-CaseChart ladder() {
+CaseChart model_table() {
   CaseChart chart = chart_of({measured("cheap", 1, 0.2), measured("knee", 2, 0.02),
                               measured("dear", 100, 0.005), measured("beaten", 200, 0.1)});
   chart.rows[1].variant.name = "auto";
@@ -49,7 +49,7 @@ TEST(ChartTable, CostsAreDifferencesWithoutSetUp) {
 }
 
 TEST(ChartTable, Judgement) {
-  const Verdict verdict = judge(ladder());
+  const Verdict verdict = judge(model_table());
   EXPECT_EQ(verdict.front, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(verdict.knee, 1U);
   EXPECT_EQ(verdict.taken, 1U);
@@ -69,7 +69,7 @@ TEST(ChartTable, NoErrorBelowTheReferencesOwnIsClaimed) {
 }
 
 TEST(ChartTable, WhatWasNotMeasuredTakesNoPart) {
-  CaseChart chart = ladder();
+  CaseChart chart = model_table();
   chart.rows[0].status = Status::diverged;
   chart.rows[1].error.reset();
   chart.rows[2].timings.clear();
@@ -101,7 +101,7 @@ TEST(ChartTable, MediansAndSpreads) {
 }
 
 TEST(ChartTable, AReasonIsSaidOnce) {
-  CaseChart chart = ladder();
+  CaseChart chart = model_table();
   for (int i = 0; i < 5; ++i) {
     Measurement one;
     one.variant.name = "mesh " + std::to_string(i);
@@ -119,7 +119,7 @@ TEST(ChartTable, AReasonIsSaidOnce) {
 }
 
 TEST(ChartTable, EveryRowHasEveryColumn) {
-  CaseChart chart = ladder();
+  CaseChart chart = model_table();
   chart.rows[0].status = Status::cannot;
   chart.rows[0].note = "it cannot";
   chart.rows[2].time_error = Deviation{0.1, 0.1, 0.1};
@@ -139,7 +139,7 @@ TEST(ChartTable, EveryRowHasEveryColumn) {
 }
 
 TEST(ChartTable, SentencesToActOn) {
-  CaseChart chart = ladder();
+  CaseChart chart = model_table();
   std::string text = chart_text({chart});
   EXPECT_NE(text.find("Reference: some sentence."), std::string::npos);
   EXPECT_NE(text.find("Within the tolerance of 5 %, the cheapest is `auto` (2 %, 2 us per ms): "
@@ -166,7 +166,7 @@ TEST(ChartTable, SentencesToActOn) {
 }
 
 TEST(ChartTable, InTimeAlone) {
-  CaseChart chart = ladder();
+  CaseChart chart = model_table();
   chart.rows[0].time_error = Deviation{0.0, 0.0, 0.0};
   EXPECT_NE(chart_text({chart}).find("all integrators and steps give the same"), std::string::npos);
   chart.rows[2].time_error = Deviation{0.3, 0.3, 0.3};

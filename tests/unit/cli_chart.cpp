@@ -56,6 +56,8 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
             std::string::npos);
   EXPECT_EQ(SvgPicture(read_file(folder_ / "out/small_chart/chart.svg")).faults(),
             std::vector<std::string>{});
+  EXPECT_NE(headline_of(folder_ / "out/small_chart/report.html").find("the cheapest within"),
+            std::string::npos);
   EXPECT_EQ(faults_of_pages(folder_ / "out/small_chart", {"report.html"}, Scheme::dark),
             std::vector<std::string>{});
   const record::Table all = table();
@@ -161,7 +163,7 @@ TEST_F(ChartVerb, InterruptedItGoesOn) {
 TEST_F(ChartVerb, Refusals) {
   EXPECT_EQ(chart("[[step]]\nkind = \"indent\"\nto = \"1 N\"\n").err,
             "small.toml:3:6: a step to a force ends elsewhere in every configuration, and `palpate "
-            "chart` compares forces at equal travels; give a displacement\n");
+            "chart` compares forces at equal displacements; give a displacement\n");
   EXPECT_EQ(chart(half_space, {"--repeats", "0"}).code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }

@@ -67,13 +67,25 @@ TEST_F(CompareVerb, a_page_overlays_the_curves) {
       palpate(folder_.path(), {"compare", "got.csv", "want.csv", "--report", "page.html"});
   EXPECT_EQ(ended.code, 3) << ended.err;
   const std::string page = read_file(folder_ / "page.html");
-  EXPECT_NE(page.find("largest difference of force_N"), std::string::npos);
+  EXPECT_EQ(headline_of(folder_ / "page.html"), "20 % largest difference of force_N");
   const auto wanted = page.find("skin, wanted</text>");
   ASSERT_NE(wanted, std::string::npos);
   EXPECT_LT(page.find("skin, got</text>"), wanted);
   EXPECT_GT(page.find("stroke-dasharray"), wanted);
   EXPECT_NE(page.find("stroke-dasharray"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "page.html.partial"));
+}
+
+TEST_F(CompareVerb, a_page_overlays_curves_of_other_names) {
+  const std::string head = "case,travel_mm,force_N\n";
+  write_file(folder_ / "got.csv", head + "soft,0,0\nsoft,1,2\n");
+  write_file(folder_ / "want.csv", head + "hard,0,0\nhard,1,5\n");
+  EXPECT_EQ(
+      palpate(folder_.path(), {"compare", "got.csv", "want.csv", "--report", "page.html"}).code, 3);
+  const std::string page = read_file(folder_ / "page.html");
+  EXPECT_NE(page.find("soft, got</text>"), std::string::npos);
+  EXPECT_NE(page.find("hard, wanted</text>"), std::string::npos);
+  EXPECT_EQ(page.find("soft, wanted"), std::string::npos) << "an empty curve";
 }
 
 TEST_F(CompareVerb, within_a_tolerance) {

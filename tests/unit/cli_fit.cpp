@@ -1,4 +1,4 @@
-// `palpate fit` on tables of a user's: known answers, what is left out, messages, no library's log.
+// `palpate fit` on tables of a user's: known answers, what is excluded, messages, no library's log.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,7 +94,7 @@ TEST_F(FitVerb, what_has_no_logarithm_is_left_out_and_counted) {
   EXPECT_EQ(ended.err,
             "note: the curve is met exact to rounding, so that the intervals are no errors of a "
             "measurement\n"
-            "note: 3 points are left out: not finite, or x <= 0 where its logarithm is needed\n");
+            "note: 3 points are excluded: not finite, or x <= 0 where its logarithm is needed\n");
 }
 
 TEST_F(FitVerb, one_case_of_a_result) {

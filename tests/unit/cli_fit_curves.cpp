@@ -167,7 +167,7 @@ TEST_F(FitCurves, a_step_between_two_rows_is_in_the_interval) {
   EXPECT_TRUE(says("the rows leave it open by their distance")) << said_;
   fit("made.csv", {"--model", "prony", "--terms", "1", "--origin", "5.2"});
   EXPECT_NEAR(of("y_1").estimate, 2.0, 0.06);  // four standard errors
-  EXPECT_TRUE(says("11 points are left out: before the step")) << said_;
+  EXPECT_TRUE(says("11 points are excluded: before the step")) << said_;
 }
 
 // The same after a strain that grows from 3 to 5 s: the integral of the relaxation over the ramp.
@@ -202,7 +202,7 @@ TEST_F(FitCurves, a_creep_with_a_jump_and_its_recovery) {
   EXPECT_TRUE(of("y_0").holds(1.0)) << said_;  // at the row after the step it is 1.02
   EXPECT_GT(of("y_0").estimate, 1.01);
   EXPECT_TRUE(of("tau_1").holds(5.0)) << said_;
-  EXPECT_TRUE(says("points are left out: the curve falls there as in a recovery")) << said_;
+  EXPECT_TRUE(says("points are excluded: the curve falls there as in a recovery")) << said_;
 }
 
 // 1 + 2 (1 - e^(-t/5)) % for 60 s. The largest of the noisy values lies anywhere in the hold, whose
@@ -216,11 +216,11 @@ TEST_F(FitCurves, a_creep_is_fitted_to_the_end_of_its_hold) {
   for (const double noise : {0.02, 0.1, 0.2}) {
     table("time (s),strain (%)", 61, 1.0, held, noise);
     fit("made.csv", words);
-    EXPECT_FALSE(says("left out")) << said_;
+    EXPECT_FALSE(says("excluded")) << said_;
     table(
         "time (s),strain (%)", 61, 1.0, [&](double t) { return t == 40.0 ? 0.5 : held(t); }, noise);
     fit("made.csv", words);
-    EXPECT_FALSE(says("left out")) << said_;
+    EXPECT_FALSE(says("excluded")) << said_;
     table("time (s),strain (%)", 141, 1.0, recovering, noise);
     fit("made.csv", words);
     const record::Table rows = record::read_csv((folder_ / "fit.csv").string());
@@ -288,7 +288,7 @@ TEST_F(FitCurves, a_sensor_at_its_limit) {
       0.0);
   fit("made.csv", words);
   EXPECT_NEAR(of("E").estimate, 20.0, 1e-3);  // without noise: rounding of the file
-  EXPECT_TRUE(says("left out: the force stays at its largest value")) << said_;
+  EXPECT_TRUE(says("excluded: the force stays at its largest value")) << said_;
   table(
       "Displacement (mm),Force (N)", 300, 0.005,
       [&](double x) { return x > 1.2 ? 9.9e37 : hertz(x); }, 0.0);

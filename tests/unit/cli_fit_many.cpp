@@ -131,7 +131,7 @@ TEST_F(FitMany, DataAdvisesAModulusWhereTheSpecimenGivesWay) {
     text += std::to_string(0.1 * i) + "," + std::to_string(i < 60 ? 0.5 * i : 0.3) + "\n";
   write_file(folder_ / "torn.csv", text);
   const Ended ended = palpate(folder_.path(), {"data", "torn.csv"});
-  EXPECT_NE(ended.out.find("20 points are left out: beyond the largest force"), std::string::npos)
+  EXPECT_NE(ended.out.find("20 points are excluded: beyond the largest force"), std::string::npos)
       << ended.out;
   EXPECT_NE(ended.out.find("--model modulus --height"), std::string::npos) << ended.out;
 }

@@ -82,7 +82,7 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
   for (const char* name : {"curve.svg", "profile.svg"})
     EXPECT_EQ(SvgPicture(read_file(result / name)).faults(), std::vector<std::string>{}) << name;
   EXPECT_NE(read_file(result / "curve.svg").find(">Measured - model ("), std::string::npos)
-      << "gnuplot leaves out a label that has no place";
+      << "gnuplot omits a label that has no place";
 
   write_file(folder_ / "again.toml", read_file(result / "scenario.toml"));
   const auto run = palpate(folder_.path(), {"run", "again.toml"});
@@ -101,7 +101,7 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
 
 // One press knows E / (1 - nu^2) alone. Shell, JSON, table and page agree that E and nu have no
 // numbers, and the exit code says that something asked for is missing.
-TEST_F(IdentifyVerb, TiedUnknownsAreNoSuccess) {
+TEST_F(IdentifyVerb, InseparableUnknownsAreNoSuccess) {
   const std::vector<std::string> words{"--unknown", "tissue.young_modulus=1..500 kPa", "--unknown",
                                        "tissue.poisson_ratio=0.2..0.49"};
   const Ended done = identify(words);
@@ -124,6 +124,11 @@ TEST_F(IdentifyVerb, TiedUnknownsAreNoSuccess) {
           table.rows[row][static_cast<std::size_t>(table.find(column))]))
           << column;
   EXPECT_NE(read_file(result / "report.html").find("have no numbers"), std::string::npos);
+  EXPECT_TRUE(
+      headline_of(result / "report.html")
+          .starts_with("Determined is tissue.young_modulus / (1 - tissue.poisson_ratio^2) = "
+                       "75.2"))
+      << headline_of(result / "report.html");
   std::vector<std::string> machine = words;
   machine.insert(machine.end(), {"--json", "--force"});
   const Ended json = identify(machine);

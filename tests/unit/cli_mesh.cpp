@@ -185,7 +185,7 @@ TEST_F(MeshVerb, RefusesWhatCannotServe) {
   expect_refused(2, {"no.stl", "--unit", "m"}, "no.stl");
   expect_refused(2, {"box.step", "--unit", "m"}, "box.step: is neither a surface");
   const std::string cube = project_file("scenarios/model_cube.toml");
-  expect_refused(2, {cube, "--unit", "mm"}, "leave out `--unit`");
+  expect_refused(2, {cube, "--unit", "mm"}, "remove `--unit`");
   expect_refused(2, {cube, "--edge", "3 mm"}, "`--edge` is for surfaces");
   expect_refused(2, {cube, "--set", "solver.model=hertz"}, "`hertz`, which has no mesh");
 }

@@ -96,6 +96,9 @@ TEST_F(Messages, OneOfEachClass) {
        "press.toml:5:12: `1e400` is a number that no double can hold; write one between -1e300 and "
        "1e300"},
       {"to = \"3 mm\"\n", "press.toml:4:1: `to` is given twice; keep one of the two"},
+      {"[solver]\ntolerance = \"5 %\"\n",
+       "press.toml:5:13: `tolerance` wants a pure number, got a text `5 %`; write it as `tolerance "
+       "= 0.05`"},
       {"[contact]\nfriction = \"high\"\n",
        "press.toml:5:12: `friction` wants a pure number, got a text `high`; write it as `friction "
        "= "

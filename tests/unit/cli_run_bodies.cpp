@@ -40,7 +40,7 @@ class RunBodies : public testing::Test {
   // A column of 12 x 12 x 24 mm, turned about y by an angle in degrees.
   std::string column(double degrees) {
     geometry::Surface surface =
-        geometry::skin(
+        geometry::outer_surface(
             geometry::cuboid(Vec3(0.012, 0.012, 0.024), {2, 2, 4}, geometry::CellPattern::mirrored))
             .surface;
     const Eigen::AngleAxisd turn(degrees / 180.0 * M_PI, Vec3::UnitY());
@@ -81,7 +81,7 @@ TEST_F(RunBodies, a_press_on_what_is_held_is_refused) {
 // A column as Gmsh writes its surface, whose end x = 0 is a group, and with y = 0 another one.
 TEST_F(RunBodies, a_group_of_faces_is_held_as_the_side_it_is) {
   const geometry::Surface surface =
-      geometry::skin(
+      geometry::outer_surface(
           geometry::cuboid(Vec3(0.012, 0.012, 0.024), {2, 2, 4}, geometry::CellPattern::mirrored))
           .surface;
   std::string text =
@@ -177,7 +177,7 @@ TEST_F(RunBodies, a_shallow_press_on_a_blunt_ridge_is_not_one_on_a_flat) {
     return std::get<double>(table.rows.front()[as_index(table.find(name))]);
   };
   const double error = found("mesh_error");
-  EXPECT_NEAR(error, 0.03 * 0.5 / 0.295, 1e-3);  // the width that is left out
+  EXPECT_NEAR(error, 0.03 * 0.5 / 0.295, 1e-3);  // the width that is excluded
   // Both with what inertia adds; the width is known before the press, too.
   EXPECT_NEAR(found("predicted_error"), found("stated_error"), 1e-9);
   EXPECT_NEAR(force(), 0.9194e-3, error * 0.9194e-3);

@@ -68,6 +68,12 @@ TEST_F(OfAPress, has_all_its_files) {
   EXPECT_EQ(names_in(*folder_ / "out"), std::set<std::string>{"press"}) << "nothing is left beside";
 }
 
+TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
+  const std::string headline = headline_of(result() / "report.html");
+  EXPECT_NE(headline.find(" N "), std::string::npos) << headline;
+  EXPECT_NE(headline.find("%"), std::string::npos) << headline;
+}
+
 TEST_F(OfAPress, has_the_promised_columns) {  // DESIGN.md section 6
   EXPECT_EQ(
       record::read_csv(result() / "force_indentation.csv").columns,

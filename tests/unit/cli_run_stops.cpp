@@ -89,7 +89,7 @@ TEST_F(RunStops, an_interrupt_does_not_wait_for_a_row) {
   }
 }
 
-// On a slow disk: most maps are left out, and the same call writes them.
+// On a slow disk: most maps are omitted, and the same call writes them.
 TEST_F(RunStops, an_interrupt_does_not_wait_for_all_maps) {
   write_file(folder_ / "maps.toml",
              "[solver]\nmodel = \"hertz\"\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n"

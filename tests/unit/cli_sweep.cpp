@@ -30,6 +30,10 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
                                    "response_peak_force_N.csv", "response_peak_force_N.gp",
                                    "response_peak_force_N.svg", "results.csv", "sensitivity.csv",
                                    "sensitivity.gp", "sensitivity.svg"}));
+  EXPECT_TRUE(
+      headline_of(folder_ / "out/s_sweep/merged/report.html").find("6 of 6 cases completed") !=
+      std::string::npos)
+      << headline_of(folder_ / "out/s_sweep/merged/report.html");
   const record::Table table =
       record::read_csv((folder_ / "out/s_sweep/merged/results.csv").string());
   EXPECT_EQ(table.rows.size(), 6U);

@@ -17,10 +17,11 @@ using contact::Detector;
 using geometry::SmoothSurface;
 using geometry::Surface;
 using test::Dice;
-using Feet = std::vector<SmoothSurface::Foot>;
+using Feet = std::vector<SmoothSurface::ClosestPoint>;
 
 Surface box(const Vec3& size, std::array<int, 3> cells) {
-  return geometry::skin(geometry::cuboid(size, cells, geometry::CellPattern::mirrored)).surface;
+  return geometry::outer_surface(geometry::cuboid(size, cells, geometry::CellPattern::mirrored))
+      .surface;
 }
 
 // z = height(x, y) over [-1, 1]^2, outside upwards.
@@ -94,7 +95,8 @@ TEST(Detection, BothSidesOfAGroove) {
     ASSERT_EQ(feet.size(), 2U) << x;
     const double root = std::sqrt(0.5);
     double left = 0.0, right = 0.0;
-    for (const auto& foot : feet) (foot.position.x() < 0.0 ? left : right) = foot.height;
+    for (const auto& closest_point : feet)
+      (closest_point.position.x() < 0.0 ? left : right) = closest_point.height;
     EXPECT_NEAR(left, root * (0.5 + x), 1e-12);
     EXPECT_NEAR(right, root * (0.5 - x), 1e-12);
   }
@@ -108,9 +110,9 @@ TEST(Detection, TwoSeparateBumps) {
   }));
   const Feet feet = find(bumps, {0.0, 0.0, 1.1}, 0.97);
   ASSERT_EQ(feet.size(), 2U);
-  for (const auto& foot : feet) {
-    EXPECT_NEAR(std::abs(foot.position.x()), 0.45, 0.1);
-    EXPECT_NEAR(foot.position.y(), 0.0, 0.05);
+  for (const auto& closest_point : feet) {
+    EXPECT_NEAR(std::abs(closest_point.position.x()), 0.45, 0.1);
+    EXPECT_NEAR(closest_point.position.y(), 0.0, 0.05);
   }
   EXPECT_EQ(find(bumps, {0.1, 0.0, 1.12}, 0.92).size(), 1U);  // the nearer one alone
   // Neither do they become one where the surface has moved.
@@ -204,8 +206,8 @@ TEST(Detection, EqualsALookAtEveryTriangle) {
     if (expected == 0) continue;
     // The nearest of all is among them, as far as the smooth surface is from the flat triangles.
     double miss = std::numeric_limits<double>::infinity();
-    for (const auto& foot : feet)
-      miss = std::min(miss, std::abs((centre - nearest).norm() - foot.height));
+    for (const auto& closest_point : feet)
+      miss = std::min(miss, std::abs((centre - nearest).norm() - closest_point.height));
     EXPECT_LT(miss, 0.01) << i;
   }
   EXPECT_GT(several, poses / 20);  // else nothing is tested

@@ -18,7 +18,7 @@ Layer alike(double nu, LayerBase base) {
 }
 
 // A skin of 3 of 20 mm on what is `stiffness` times as stiff.
-Layer skin_on(double stiffness, double nu_below = 0.45) {
+Layer surface_on(double stiffness, double nu_below = 0.45) {
   return {.poisson_ratio = 0.45, .below = {{0.85, stiffness, nu_below}}};
 }
 
@@ -57,18 +57,19 @@ TEST(LayerStack, OnARigidLayerIsTheTopOne) {
 TEST(LayerStack, SofterBelowIsSofter) {
   double before = 0.0;
   for (const double stiffness : {0.1, 0.3, 1.0, 3.0, 10.0}) {
-    const double factor = LayerLaw(skin_on(stiffness)).force_factor(0.16);
+    const double factor = LayerLaw(surface_on(stiffness)).force_factor(0.16);
     EXPECT_GT(factor, before) << stiffness;
     before = factor;
-    EXPECT_NEAR(LayerLaw(skin_on(stiffness)).force_factor(1e-6), 1.0, 1e-4) << stiffness;
+    EXPECT_NEAR(LayerLaw(surface_on(stiffness)).force_factor(1e-6), 1.0, 1e-4) << stiffness;
   }
-  EXPECT_LT(LayerLaw(skin_on(0.1)).force_factor(0.16), 0.7);
-  EXPECT_LT(test::layer_first_coefficient(skin_on(0.1)), 0.0);
+  EXPECT_LT(LayerLaw(surface_on(0.1)).force_factor(0.16), 0.7);
+  EXPECT_LT(test::layer_first_coefficient(surface_on(0.1)), 0.0);
 }
 
 // 1e-5, as the header says.
 TEST(LayerStack, TheLawFollowsTheEquation) {
-  for (const Layer& layer : {skin_on(0.1), skin_on(10.0, 0.3), alike(0.3, LayerBase::bonded)}) {
+  for (const Layer& layer :
+       {surface_on(0.1), surface_on(10.0, 0.3), alike(0.3, LayerBase::bonded)}) {
     const LayerLaw law(layer);
     for (double part = 0.01; part < 1.0; part += 0.13) {
       const double chi = part * law.last_chi();
@@ -87,7 +88,7 @@ TEST(LayerStack, TheLawFollowsTheEquation) {
 
 TEST(LayerStack, TheLawFindsTheDepthOfALoad) {
   for (const double stiffness : {0.01, 0.1, 10.0}) {
-    const LayerLaw law(skin_on(stiffness));
+    const LayerLaw law(surface_on(stiffness));
     for (double part = 1e-4; part < 1.0; part *= 3.0) {
       const double chi = part * law.last_chi();
       const auto found = law.chi(chi * chi * chi * law.force_factor(chi));
@@ -98,21 +99,23 @@ TEST(LayerStack, TheLawFindsTheDepthOfALoad) {
 }
 
 // Far from the force the whole stack is felt, near it the top layer: the two tables meet.
-TEST(LayerStack, SinkingGoesOnFromTableToTable) {
-  const LayerSinking sinking(skin_on(0.3), 20.0);
+TEST(LayerStack, SurfaceDisplacementGoesOnFromTableToTable) {
+  const LayerSurfaceDisplacement surface_displacement(surface_on(0.3), 20.0);
   const double border = 12.0 * 0.15;
-  EXPECT_NEAR(sinking.gamma(border * (1.0 + 1e-12)), sinking.gamma(border * (1.0 - 1e-12)), 3e-5);
-  EXPECT_NEAR(sinking.gamma(12.0), 1.0 / 12.0, 1e-6);  // the rigid base holds it
+  EXPECT_NEAR(surface_displacement.gamma(border * (1.0 + 1e-12)),
+              surface_displacement.gamma(border * (1.0 - 1e-12)), 3e-5);
+  EXPECT_NEAR(surface_displacement.gamma(12.0), 1.0 / 12.0, 1e-6);  // the rigid base holds it
   // One tissue in layers is one layer.
-  const LayerSinking one(Layer{.poisson_ratio = 0.3}, 11.0);
-  const LayerSinking split(alike(0.3, LayerBase::bonded), 11.0);
+  const LayerSurfaceDisplacement one(Layer{.poisson_ratio = 0.3}, 11.0);
+  const LayerSurfaceDisplacement split(alike(0.3, LayerBase::bonded), 11.0);
   for (const double rho : {0.0, 0.1, 0.5, 1.0, 2.3, 5.0, 11.0})
     EXPECT_NEAR(split.gamma(rho), one.gamma(rho), 1e-6) << rho;
   // How far the table reaches does not matter.
   for (const double farthest : {0.0, 0.3, 1.8, 5.0}) {
-    const LayerSinking near(skin_on(0.3), farthest);
+    const LayerSurfaceDisplacement near(surface_on(0.3), farthest);
     for (const double part : {0.0, 0.7, 1.0})
-      EXPECT_EQ(near.gamma(part * farthest), sinking.gamma(part * farthest)) << farthest;
+      EXPECT_EQ(near.gamma(part * farthest), surface_displacement.gamma(part * farthest))
+          << farthest;
   }
 }
 

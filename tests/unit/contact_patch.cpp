@@ -23,19 +23,21 @@ using test::Dice;
 const Vec3 block_size(0.06, 0.06, 0.03);
 
 geometry::Surface block() {
-  return geometry::skin(geometry::cuboid(block_size, {7, 6, 4}, geometry::CellPattern::mirrored))
+  return geometry::outer_surface(
+             geometry::cuboid(block_size, {7, 6, 4}, geometry::CellPattern::mirrored))
       .surface;
 }
 
 // Over the foot below `point`, its long axis turned by `angle` from an arbitrary direction.
 Patch patch_below(const SmoothSurface& smooth, const BoxTree& tree, const Vec3& point,
                   double angle) {
-  const auto foot = smooth.foot(point, tree.nearest(point));
+  const auto closest_point = smooth.closest_point(point, tree.nearest(point));
   Patch patch;
-  patch.at = foot.at;
-  patch.position = foot.position;
-  patch.normal = foot.normal;
-  patch.axis = Eigen::AngleAxisd(angle, foot.normal) * foot.normal.unitOrthogonal();
+  patch.at = closest_point.at;
+  patch.position = closest_point.position;
+  patch.normal = closest_point.normal;
+  patch.axis =
+      Eigen::AngleAxisd(angle, closest_point.normal) * closest_point.normal.unitOrthogonal();
   return patch;
 }
 
@@ -119,9 +121,10 @@ TEST(Spread, APointLoadsItsOwnTriangle) {
 // finer than the patch the shares must have them along its axes: so the ellipse is neither turned
 // nor mistaken for a circle.
 TEST(Spread, HasTheEllipsesSecondMoments) {
-  const SmoothSurface smooth(geometry::skin(geometry::cuboid(Vec3(0.06, 0.06, 0.002), {120, 120, 1},
-                                                             geometry::CellPattern::mirrored))
-                                 .surface);
+  const SmoothSurface smooth(
+      geometry::outer_surface(
+          geometry::cuboid(Vec3(0.06, 0.06, 0.002), {120, 120, 1}, geometry::CellPattern::mirrored))
+          .surface);
   const BoxTree tree(smooth.surface());
   Spreader spreader(smooth);
   Spread spread;

@@ -24,7 +24,7 @@ TEST(PatchField, IsHertzsOnTheAxis) {
   }
 }
 
-// The mean sinking under the pressure that loads it is 3 F / (5 E' a).
+// The mean surface displacement under the pressure that loads it is 3 F / (5 E' a).
 TEST(PatchField, SinksAsHertzsContactOnTheAverage) {
   constexpr double a = 2e-3;
   constexpr double nu = 0.3;

@@ -214,12 +214,12 @@ TEST(ContactModel, TheWayBackIsLeftOutAndCounted) {
   const Fit approach = fit_contact(curve.depth, curve.force, test);
   EXPECT_NEAR(approach.parameters[0].estimate, 72.4, 1e-8 * 72.4);  // exact data
   EXPECT_EQ(approach.n, 300);
-  EXPECT_EQ(approach.left_out, 300);
+  EXPECT_EQ(approach.excluded, 300);
   test.way = ContactTest::Way::retract;
   const Fit retract = fit_contact(curve.depth, curve.force, test);
   // The deepest row belongs to both ways and has the force of the approach: 1 of 301 rows.
   EXPECT_NEAR(retract.parameters[0].estimate, 36.2, 0.02 * 36.2);
-  EXPECT_EQ(retract.left_out, 299);
+  EXPECT_EQ(retract.excluded, 299);
 }
 
 // Beyond 1 mm the tissue stiffens up to 80 times; the part up to there gives the modulus.
@@ -235,7 +235,7 @@ TEST(ContactModel, APartOfTheDepths) {
   const Fit fit = fit_contact(curve.depth, curve.force, test);
   EXPECT_NEAR(fit.parameters[0].estimate, 72.4, 1e-8 * 72.4);  // exact data
   EXPECT_NEAR(fit.range_high, 1.3, 0.03);                      // the spacing of the rows
-  EXPECT_EQ(fit.n + fit.left_out, 300);
+  EXPECT_EQ(fit.n + fit.excluded, 300);
 }
 
 TEST(ContactModel, ASignIsAdvisedOnlyWhereItIsWrong) {

@@ -226,14 +226,14 @@ TEST(Prony, LiquidsExactly) {
     EXPECT_NEAR(fit.parameters[i].estimate, truth, 1e-8) << i;  // exact data
 }
 
-// A row without a strain is left out, like one without a stress.
+// A row without a strain is excluded, like one without a stress.
 TEST(Prony, ARowWithoutAHistoryIsLeftOut) {
   const RelaxationCurve curve = curve_of(PronySeries::Kind::relaxation);
   PronySeries series;
   series.history.samples.assign(curve.x.size(), 1.0);
   series.history.samples[200] = std::nan("");
   const Fit fit = fit_prony(curve.x, curve.y, series);
-  EXPECT_EQ(fit.left_out, 1);
+  EXPECT_EQ(fit.excluded, 1);
   EXPECT_NEAR(fit.parameters[4].estimate, 2.0, 1e-6);  // exact data
 }
 

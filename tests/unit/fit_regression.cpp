@@ -228,12 +228,12 @@ TEST(Regression, PointsThatCannotBeUsedAreCounted) {
   curve.y.insert(curve.y.begin(), {0.0, 0.0, nan, 1.0, std::numeric_limits<double>::infinity()});
   const Fit fit = regress(curve.x, curve.y, Model::logarithmic, {.x_unit = "mm", .y_unit = "N"});
   EXPECT_EQ(fit.n, 30);
-  EXPECT_EQ(fit.left_out, 5);
+  EXPECT_EQ(fit.excluded, 5);
   EXPECT_EQ(fit.range_low, 0.1);
   EXPECT_EQ(fit.range_high, 3.0);
   const Fit alone = regress(skin().x, skin().y, Model::logarithmic);
   EXPECT_EQ(fit.parameters[0].estimate, alone.parameters[0].estimate);
-  EXPECT_EQ(regress(curve.x, curve.y, Model::exponential).left_out, 3);  // takes x <= 0
+  EXPECT_EQ(regress(curve.x, curve.y, Model::exponential).excluded, 3);  // takes x <= 0
 }
 
 TEST(Regression, TimeCountsFromTheLoad) {
@@ -252,7 +252,7 @@ TEST(Regression, RefusesTooFewPoints) {
     FAIL() << "nothing was refused";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "the model `power` needs at least 3 points, and 1 is usable (2 left out: not "
+                 "the model `power` needs at least 3 points, and 1 is usable (2 excluded: not "
                  "finite, or x not above 0); record more points, or fit a model with fewer "
                  "parameters");
   }

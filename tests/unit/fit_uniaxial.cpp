@@ -79,7 +79,7 @@ TEST(Uniaxial, ModulusOverARange) {
   EXPECT_EQ(fit.parameters[2].name, "E_secant");
   EXPECT_NEAR(fit.parameters[2].estimate, 2.5, 1e-9);  // 1000 + 5000 * 0.3 Pa, a parabola exactly
   EXPECT_EQ(fit.n, 41);
-  EXPECT_EQ(fit.left_out, 60);
+  EXPECT_EQ(fit.excluded, 60);
 }
 
 // Diameter 20 mm, height 10 mm: S = 1/2 and 1 + 2 S^2 = 1.5.

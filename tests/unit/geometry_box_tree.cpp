@@ -34,12 +34,12 @@ double distance_squared(const Vec3& point, const Vec3& a, const Vec3& b, const V
     best = std::min(best, (from + part * side - point).squaredNorm());
   }
   const Vec3 normal = (b - a).cross(c - a).normalized();
-  const Vec3 foot = point - (point - a).dot(normal) * normal;
+  const Vec3 closest_point = point - (point - a).dot(normal) * normal;
   bool inside = true;
   for (std::size_t i = 0; i < 3; ++i)
-    inside =
-        inside && (corners[(i + 1) % 3] - corners[i]).cross(foot - corners[i]).dot(normal) >= 0;
-  return inside ? std::min(best, (foot - point).squaredNorm()) : best;
+    inside = inside &&
+             (corners[(i + 1) % 3] - corners[i]).cross(closest_point - corners[i]).dot(normal) >= 0;
+  return inside ? std::min(best, (closest_point - point).squaredNorm()) : best;
 }
 
 std::vector<double> all_distances(const Surface& surface, const Vec3& point) {

@@ -130,7 +130,8 @@ TEST(Curvature, PrincipalValuesOfAMatrix) {
 
 // A box is flat on every side of every edge, and an edge belongs to no side by itself.
 TEST(Curvature, StopsAtCreases) {
-  const Surface box = skin(cuboid({0.04, 0.05, 0.03}, {4, 5, 3}, CellPattern::mirrored)).surface;
+  const Surface box =
+      outer_surface(cuboid({0.04, 0.05, 0.03}, {4, 5, 3}, CellPattern::mirrored)).surface;
   const CurvatureStars at = stars(box);
   int creased = 0;
   for (std::size_t t = 0; t < box.triangles.size(); ++t)

@@ -20,7 +20,8 @@ using geometry::SurfacePoint;
 using test::Dice;
 
 Surface box(const Vec3& size, std::array<int, 3> cells) {
-  return geometry::skin(geometry::cuboid(size, cells, geometry::CellPattern::mirrored)).surface;
+  return geometry::outer_surface(geometry::cuboid(size, cells, geometry::CellPattern::mirrored))
+      .surface;
 }
 
 // A wedge along y whose upper edge is sharper than a right angle: its sides rise at 60 degrees.
@@ -41,8 +42,8 @@ struct Searched {
   SmoothSurface smooth;
   BoxTree tree;
   explicit Searched(const Surface& surface) : smooth(surface), tree(surface) {}
-  [[nodiscard]] SmoothSurface::Foot foot(const Vec3& point) const {
-    return smooth.foot(point, tree.nearest(point));
+  [[nodiscard]] SmoothSurface::ClosestPoint closest_point(const Vec3& point) const {
+    return smooth.closest_point(point, tree.nearest(point));
   }
 };
 
@@ -54,12 +55,13 @@ TEST(SmoothSurface, IsTheFlatItselfOnFlats) {
     const double x = size.x() * (0.02 + 0.96 * dice.roll());
     const double y = size.y() * (0.02 + 0.96 * dice.roll());
     const double up = 0.02 * dice.roll() - 0.0009;  // not deeper than the sides are far
-    const auto foot = block.foot({x, y, size.z() + up});
-    EXPECT_EQ(foot.normal, Vec3::UnitZ());
-    EXPECT_EQ(foot.position.z(), size.z());
-    EXPECT_NEAR((foot.position - Vec3(x, y, size.z())).norm(), 0.0, 1e-16);  // rounding of weights
-    EXPECT_EQ(foot.height, size.z() + up - size.z());
-    EXPECT_FALSE(foot.on_crease);
+    const auto closest_point = block.closest_point({x, y, size.z() + up});
+    EXPECT_EQ(closest_point.normal, Vec3::UnitZ());
+    EXPECT_EQ(closest_point.position.z(), size.z());
+    EXPECT_NEAR((closest_point.position - Vec3(x, y, size.z())).norm(), 0.0,
+                1e-16);  // rounding of weights
+    EXPECT_EQ(closest_point.height, size.z() + up - size.z());
+    EXPECT_FALSE(closest_point.on_crease);
   }
   for (std::size_t t = 0; t < block.smooth.surface().triangles.size(); ++t)
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -82,8 +84,8 @@ TEST(SmoothSurface, IsItsTrianglesWhereEveryEdgeIsACrease) {
         1.2 * Vec3(dice.roll() - 0.5, dice.roll() - 0.5, dice.roll() - 0.5).normalized();
     const geometry::Near near = tree.nearest(point);
     const Vec3 own = flat.flat_position({near.triangle, near.weights});
-    EXPECT_NEAR((flat.foot(point, near).position - own).norm(), 0.0, 1e-6);
-    most = std::max(most, (smooth.foot(point, near).position - own).norm());
+    EXPECT_NEAR((flat.closest_point(point, near).position - own).norm(), 0.0, 1e-6);
+    most = std::max(most, (smooth.closest_point(point, near).position - own).norm());
   }
   EXPECT_GT(most, 0.01);  // which the smooth surface is not
 }
@@ -143,9 +145,9 @@ Errors errors(const Surface& surface, const Point& point, const Height& height,
   Errors worst;
   for (int i = 0; i < points; ++i) {
     const Vec3 x = point(dice.roll(), dice.roll(), 0.4 * (dice.roll() - 0.2));
-    const auto foot = searched.foot(x);
-    worst.height = std::max(worst.height, std::abs(foot.height - height(x)));
-    worst.normal += (foot.normal - normal(x)).norm() / points;
+    const auto closest_point = searched.closest_point(x);
+    worst.height = std::max(worst.height, std::abs(closest_point.height - height(x)));
+    worst.normal += (closest_point.normal - normal(x)).norm() / points;
   }
   return worst;
 }
@@ -213,13 +215,13 @@ TEST(SmoothSurface, FollowsSphereCylinderSaddleAndTorusToSecondOrder) {
 void expect_no_jumps(const char* name, const Searched& searched, const Vec3& from, const Vec3& to,
                      double curvature) {
   constexpr int steps = 4000;
-  auto before = searched.foot(from);
+  auto before = searched.closest_point(from);
   const double step = (to - from).norm() / steps;
   double worst_height = 0.0;
   double worst_normal = 0.0;
   for (int i = 1; i <= steps; ++i) {
     const Vec3 point = from + (to - from) * (static_cast<double>(i) / steps);
-    const auto now = searched.foot(point);
+    const auto now = searched.closest_point(point);
     worst_height = std::max(worst_height, std::abs(now.height - before.height));
     worst_normal = std::max(worst_normal, (now.normal - before.normal).norm());
     before = now;
@@ -267,18 +269,18 @@ TEST(SmoothSurface, KnowsInsideFromOutside) {
     const bool inside = (point.array() > 0.0).all() && (point.array() < size.array()).all();
     const Vec3 away = point.cwiseMax(0.0).cwiseMin(size) - point;
     const double depth = std::min(point.minCoeff(), (size - point).minCoeff());
-    EXPECT_NEAR(block.foot(point).height, inside ? -depth : away.norm(), 1e-15);
+    EXPECT_NEAR(block.closest_point(point).height, inside ? -depth : away.norm(), 1e-15);
 
     const Vec3 x(6.0 * dice.roll() - 3.0, 4.0 * dice.roll(), 5.0 * dice.roll() - 3.0);
     const double low = std::sqrt(3.0);
     const bool within = x.z() > -low && x.z() < 0.0 && std::abs(x.x()) < -x.z() / std::sqrt(3.0);
-    EXPECT_EQ(sharp.foot(x).height < 0.0, within) << x.transpose();
+    EXPECT_EQ(sharp.closest_point(x).height < 0.0, within) << x.transpose();
   }
 }
 
 TEST(SmoothSurface, RimPointsSayThatTheyAreOnACrease) {
   const Searched block(box({0.06, 0.05, 0.03}, {5, 6, 3}));
-  const auto rim = block.foot({0.063, 0.02, 0.034});
+  const auto rim = block.closest_point({0.063, 0.02, 0.034});
   EXPECT_TRUE(rim.on_crease);
   EXPECT_NEAR(rim.height, 0.005, 1e-15);
   EXPECT_NEAR((rim.normal - Vec3(0.6, 0.0, 0.8)).norm(), 0.0, 1e-13);  // rounding over 5 mm
@@ -287,7 +289,7 @@ TEST(SmoothSurface, RimPointsSayThatTheyAreOnACrease) {
   const auto& far = block.smooth.corner_normal(rim.beyond.triangle, 0);
   EXPECT_EQ(near + far, Vec3(1.0, 0.0, 1.0));
   EXPECT_NEAR(rim.turned, (near == Vec3::UnitZ() ? 0.6 : 0.8) / 1.4, 1e-13);
-  EXPECT_EQ(block.foot({0.03, 0.02, 0.034}).turned, 0.0);
+  EXPECT_EQ(block.closest_point({0.03, 0.02, 0.034}).turned, 0.0);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST(BoxErrors, AreThoseOfLinearLeastSquares) {
   EXPECT_NEAR(errors.variance(0, 0), 0.01 / 4.0, 1e-15);  // rounding
   EXPECT_NEAR(errors.variance(1, 1), 0.01, 1e-15);
   EXPECT_NEAR(errors.variance(0, 1), 0.0, 1e-15);
-  EXPECT_EQ(errors.tied, (std::vector<char>{0, 0}));
+  EXPECT_EQ(errors.inseparable, (std::vector<char>{0, 0}));
 }
 
 TEST(BoxErrors, CorrelatedColumnsShareTheirError) {
@@ -49,12 +49,12 @@ TEST(BoxErrors, FollowTheNoiseOfEachDirection) {
 }
 
 TEST(BoxErrors, ADirectionWiderThanHalfTheBoxIsATie) {
-  const auto tied = [](double slope) {
-    return box_errors(std::vector<double>{1.0, 0.0, 0.0, slope}, 2, white(0.1), 2.0).tied;
+  const auto inseparable = [](double slope) {
+    return box_errors(std::vector<double>{1.0, 0.0, 0.0, slope}, 2, white(0.1), 2.0).inseparable;
   };
   // 2 sigma / slope is 0.5 at 0.4
-  EXPECT_EQ(tied(0.41), (std::vector<char>{0, 0}));
-  EXPECT_EQ(tied(0.39), (std::vector<char>{0, 1}));
+  EXPECT_EQ(inseparable(0.41), (std::vector<char>{0, 0}));
+  EXPECT_EQ(inseparable(0.39), (std::vector<char>{0, 1}));
 }
 
 TEST(BoxErrors, OfAProductOnlyTheProductIsDetermined) {
@@ -65,7 +65,7 @@ TEST(BoxErrors, OfAProductOnlyTheProductIsDetermined) {
   const std::vector<double> slopes{2.0, 4.0, 4.0, 8.0, 6.0, 12.0};
   const BoxErrors errors = box_errors(slopes, 2, std::vector{1e-4}, 2.0);
   EXPECT_EQ(errors.determined, 1);
-  EXPECT_EQ(errors.tied, (std::vector<char>{1, 1}));
+  EXPECT_EQ(errors.inseparable, (std::vector<char>{1, 1}));
   const auto found = combination(errors, unknowns, std::vector{0.5, 0.25}, 2.0);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->text, "a * b^2");
@@ -96,24 +96,24 @@ TEST(BoxErrors, HertzsModulusIsNamedWhereItIsDetermined) {
 // Noise below a hundred-thousandth has no meaning, and neither has a slope below a millionth of the
 // steepest; the weakest directions that are asked for are loose in any case.
 TEST(BoxErrors, WhatIsTooSmallToCount) {
-  EXPECT_EQ(box_errors(std::vector{2.0, 0.0, 0.0, 1e-6}, 2, white(0.0), 2.0).tied,
+  EXPECT_EQ(box_errors(std::vector{2.0, 0.0, 0.0, 1e-6}, 2, white(0.0), 2.0).inseparable,
             (std::vector<char>{0, 1}));
   EXPECT_EQ(determined_directions(std::vector{2.0, 0.0, 0.0, 1e-8}, 2).size(), 2U);  // one of two
   EXPECT_EQ(determined_directions(std::vector{2.0, 0.0, 0.0, 1e-4}, 2).size(), 4U);
   const BoxErrors weakest = box_errors(std::vector{2.0, 0.0, 0.0, 1.0}, 2, white(1e-3), 2.0, 1);
   EXPECT_EQ(weakest.determined, 1);
-  EXPECT_EQ(weakest.tied, (std::vector<char>{0, 1}));
+  EXPECT_EQ(weakest.inseparable, (std::vector<char>{0, 1}));
 }
 
 // Along a loose direction (1, s) the second unknown moves by s/2, which ties it only where that is
 // more than a thousandth and more than its own error.
 TEST(BoxErrors, ASmallPartOfALooseDirectionIsNoTie) {
-  const auto tied = [](double s, double sigma) {
-    return box_errors(std::vector{-s, 1.0, 0.0, 0.0}, 2, white(sigma), 2.0).tied[1] != 0;
+  const auto inseparable = [](double s, double sigma) {
+    return box_errors(std::vector{-s, 1.0, 0.0, 0.0}, 2, white(sigma), 2.0).inseparable[1] != 0;
   };
-  EXPECT_FALSE(tied(0.0005, 1e-5));
-  EXPECT_FALSE(tied(0.01, 0.1));
-  EXPECT_TRUE(tied(0.01, 1e-5));
+  EXPECT_FALSE(inseparable(0.0005, 1e-5));
+  EXPECT_FALSE(inseparable(0.01, 0.1));
+  EXPECT_TRUE(inseparable(0.01, 1e-5));
 }
 
 TEST(ResidualTests, TellNoiseFromBends) {

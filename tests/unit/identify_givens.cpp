@@ -95,13 +95,13 @@ TEST(Givens, WidenEveryEnd) {
     }
   }
   // Of an unknown that the data leave open there is nothing to widen.
-  const auto tied =
+  const auto inseparable =
       read_unknowns({"tissue.young_modulus=5..500 kPa", "tissue.poisson_ratio=0.2..0.49"},
                     family.cases.front().scenario);
-  Identification open = identify(curve, family, tied, {});
+  Identification open = identify(curve, family, inseparable, {});
   carry_givens(open, curve, family, givens, Noise::constant);
   for (const Identified& one : open.unknowns) {
-    EXPECT_TRUE(one.tied);
+    EXPECT_TRUE(one.inseparable);
     EXPECT_FALSE(one.std_error || one.ci95_low || one.ci95_high);
   }
 }

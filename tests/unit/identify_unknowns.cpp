@@ -67,13 +67,19 @@ TEST(Unknowns, AreRefusedInSentences) {
   EXPECT_EQ(refusal({"tissue.young_modulos=1..2 kPa"}),
             "palpate: `--unknown tissue.young_modulos=1..2 kPa` names no number of this scenario; "
             "did you mean `tissue.young_modulus`?");
+  EXPECT_EQ(refusal({"yong_modulus"}),
+            "palpate: `--unknown yong_modulus` names no number of this scenario; did you mean "
+            "`tissue.young_modulus`?");
+  EXPECT_NE(refusal({"=1..2 kPa"}).find("is written `KEY=LOW..HIGH`"), std::string::npos);
+  EXPECT_NE(refusal({"tissue.young_modulus=1 kPa"}).find("is written `KEY=LOW..HIGH`"),
+            std::string::npos);
   EXPECT_NE(refusal({"tissue.young_modulus=1..2 mm"}).find("mm"), std::string::npos);
   EXPECT_EQ(refusal({"tissue.poisson_ratio=0.1..0.6"}),
             "palpate: `--unknown tissue.poisson_ratio=0.1..0.6` leaves the limits of the key, "
             "which is above -1 and below 0.5; narrow the range");
   EXPECT_EQ(refusal({"tissue.poisson_ratio=0.4..0.1"}),
             "palpate: `--unknown tissue.poisson_ratio=0.4..0.1` wants a lower bound below the "
-            "upper one");
+            "upper one; exchange the two");
   EXPECT_NE(refusal({"tissue.relaxation_time=1..2 s"}).find("that is used with `viscosity = "),
             std::string::npos);
   EXPECT_EQ(

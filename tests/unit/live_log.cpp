@@ -161,7 +161,7 @@ TEST_F(LiveLogs, of_many_rows_a_full_disk_has_those_that_fit) {
   go_on.set_value();
   EXPECT_TRUE(test::seen([&] { return times_told_ > 0; }));
   const std::string kept = content(path_);
-  EXPECT_GT(kept.size(), 20000U - 4096U) << "no more than a page is left out";
+  EXPECT_GT(kept.size(), 20000U - 4096U) << "no more than a page is excluded";
   EXPECT_TRUE(table_text(rows).starts_with(kept));
   EXPECT_EQ(kept.back(), '\n');
   disk.end();

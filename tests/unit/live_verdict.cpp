@@ -273,7 +273,7 @@ TEST(Verdict, NamesWhatIsWrongWithGaugeAndStand) {
 }
 
 // What an agreement cannot say is said with it.
-TEST(Verdict, AgreesWithARemarkOnNoiseAndOutliers) {
+TEST(Verdict, AgreesWithAWarningOnNoiseAndOutliers) {
   MeasuredCurve curve = run_with(0.0, as_it_is, 1);
   curve.measured[70] += 0.1;
   const Verdict spiked = judge(curve, tolerance);

@@ -246,7 +246,7 @@ TEST(Measured, TablesWithOtherColumnsAreLeftOutAloud) {
   const std::string text = "a,b\n1,2\n3,4\n\nd_mm,F_N\n1.5,3\n2,4.25\n3,5\n4,6\n5,7\nend\n";
   const DataLayout layout{.x = "d_mm", .y = "F_N"};
   EXPECT_EQ(read(text, layout).notes[1],
-            "the table on lines 2 to 3 has other columns and is left out; `--table 1` reads it");
+            "the table on lines 2 to 3 has other columns and is excluded; `--table 1` reads it");
   EXPECT_EQ(read(text, {.x = "a", .y = "b", .table = 1}).y, (Numbers{2, 4}));
 }
 
@@ -259,7 +259,7 @@ TEST(Measured, BluehillBlocksAreSkipped) {
   expect_curve(curve);
   EXPECT_EQ(curve.lines, (std::vector<int>{7, 8}));
   EXPECT_EQ(curve.notes, std::vector<std::string>{
-                             "the lines from line 9 on contain no numbers and are left out"});
+                             "the lines from line 9 on contain no numbers and are excluded"});
   expect_curve(read(text, {.x = "Extension", .y = "Load", .skip = 4}));
 }
 
@@ -287,16 +287,16 @@ TEST(Measured, WhatIsMissingIsLeftOutAndCounted) {
   const DataLayout layout{.x = "depth_mm", .y = "force_N"};
   const MeasuredCurve curve = read(text, layout);
   expect_curve(curve);
-  EXPECT_EQ(curve.left_out, 3);
+  EXPECT_EQ(curve.excluded, 3);
   EXPECT_EQ(curve.lines, (std::vector<int>{2, 6}));
   EXPECT_EQ(curve.notes,
-            std::vector<std::string>{"3 rows are left out: a number is missing or not finite"});
+            std::vector<std::string>{"3 rows are excluded: a number is missing or not finite"});
   DataLayout all = layout;
   all.blanks = DataLayout::Blanks::keep;
   const MeasuredCurve kept = read(text, all);
   ASSERT_EQ(kept.x.size(), 5U);
   EXPECT_TRUE(std::isnan(kept.x[1]));
-  EXPECT_EQ(kept.left_out, 0);
+  EXPECT_EQ(kept.excluded, 0);
 }
 
 TEST(Measured, WhatCanBeReadInTwoWaysIsRefused) {

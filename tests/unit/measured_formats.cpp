@@ -89,7 +89,7 @@ TEST(MeasuredFormats, Rheos) {
                      {.x = "3", .y = "1", .x_unit = "s", .y_unit = "kPa"});
   EXPECT_EQ(curve.x, (Numbers{0, 0.2}));
   EXPECT_EQ(curve.y, (Numbers{1500, 1250}));
-  EXPECT_EQ(curve.left_out, 1);
+  EXPECT_EQ(curve.excluded, 1);
 }
 
 // A table of results above the curve, names and units in two rows, all fields quoted.

@@ -1,5 +1,5 @@
 // What a node of the skin is to a sphere: areas, normals of the sides that face it, facets, and the
-// half-space's sinking under a node's own load.
+// half-space's surface displacement under a node's own load.
 #include "mechanics/resolved_contact.h"
 
 #include <gtest/gtest.h>
@@ -15,13 +15,14 @@ namespace palpate::mechanics {
 namespace {
 
 // The skin of a box of cells with sides `cell`; its top is at z = 4 cells.
-geometry::SmoothSurface box_skin(double cell, geometry::CellPattern pattern) {
+geometry::SmoothSurface box_surface(double cell, geometry::CellPattern pattern) {
   return geometry::SmoothSurface(
-      geometry::skin(geometry::cuboid(Vec3::Constant(4.0 * cell), {4, 4, 4}, pattern)).surface);
+      geometry::outer_surface(geometry::cuboid(Vec3::Constant(4.0 * cell), {4, 4, 4}, pattern))
+          .surface);
 }
 
-int vertex_at(const geometry::SmoothSurface& skin, const Vec3& place) {
-  const auto& all = skin.surface().vertices;
+int vertex_at(const geometry::SmoothSurface& outer_surface, const Vec3& place) {
+  const auto& all = outer_surface.surface().vertices;
   for (std::size_t v = 0; v < all.size(); ++v)
     if ((all[v] - place).norm() < 1e-9) return static_cast<int>(v);
   ADD_FAILURE() << "no vertex there";
@@ -30,13 +31,13 @@ int vertex_at(const geometry::SmoothSurface& skin, const Vec3& place) {
 
 TEST(PressedNodes, share_the_top_and_see_only_sides_that_face_the_sphere) {
   const double cell = 1e-3;
-  const auto skin = box_skin(cell, geometry::CellPattern::mirrored);
-  const SkinNodes nodes(skin);
+  const auto outer_surface = box_surface(cell, geometry::CellPattern::mirrored);
+  const SurfaceNodes nodes(outer_surface);
   const Ball ball{Vec3(2e-3, 2e-3, 15e-3), 11e-3};
   double area = 0.0;
-  for (int v = 0; v < static_cast<int>(skin.surface().vertices.size()); ++v) {
+  for (int v = 0; v < static_cast<int>(outer_surface.surface().vertices.size()); ++v) {
     const auto node = nodes.facing(v, ball);
-    const bool top = skin.surface().vertices[static_cast<std::size_t>(v)].z() > 3.5e-3;
+    const bool top = outer_surface.surface().vertices[static_cast<std::size_t>(v)].z() > 3.5e-3;
     ASSERT_EQ(node.has_value(), top) << v;
     if (!node) continue;
     EXPECT_EQ(node->normal, Vec3(Vec3::UnitZ()));  // at the rim too: the walls look away
@@ -51,9 +52,9 @@ TEST(PressedNodes, facets_stand_off_a_sphere_by_a_sixth_of_the_square_of_a_cell_
   const double cell = 1e-3;
   const double radius = 11e-3;
   for (const auto pattern : {geometry::CellPattern::kuhn, geometry::CellPattern::mirrored}) {
-    const auto skin = box_skin(cell, pattern);
-    const SkinNodes nodes(skin);
-    for (int v = 0; v < static_cast<int>(skin.surface().vertices.size()); ++v)
+    const auto outer_surface = box_surface(cell, pattern);
+    const SurfaceNodes nodes(outer_surface);
+    for (int v = 0; v < static_cast<int>(outer_surface.surface().vertices.size()); ++v)
       if (const auto node = nodes.facing(v, {Vec3(2e-3, 2e-3, 15e-3), radius})) {
         EXPECT_NEAR(node->facets, cell * cell / (6.0 * radius), 1e-18);  // rounding
       }
@@ -63,18 +64,18 @@ TEST(PressedNodes, facets_stand_off_a_sphere_by_a_sixth_of_the_square_of_a_cell_
 // A ball on a ball: what facets cut off the skin counts like the curvature of the sphere.
 TEST(PressedNodes, facets_of_a_curved_skin_add_its_own_curvature) {
   const double own = 20e-3;
-  const geometry::SmoothSurface skin(
+  const geometry::SmoothSurface outer_surface(
       geometry::ellipsoid_surface(Vec3::Zero(), Vec3::Constant(2.0 * own), 2e-3));
-  const SkinNodes nodes(skin);
+  const SurfaceNodes nodes(outer_surface);
   const double radius = 11e-3;
   double sum = 0.0;
   double squares = 0.0;
   int count = 0;
-  for (int v = 0; v < static_cast<int>(skin.surface().vertices.size()); ++v) {
-    const Vec3& place = skin.surface().vertices[static_cast<std::size_t>(v)];
+  for (int v = 0; v < static_cast<int>(outer_surface.surface().vertices.size()); ++v) {
+    const Vec3& place = outer_surface.surface().vertices[static_cast<std::size_t>(v)];
     Vec3 outward = Vec3::Zero();
-    for (const int t : skin.neighbours().triangles_at(v))
-      outward += geometry::twice_area(skin.surface(), t);
+    for (const int t : outer_surface.neighbours().triangles_at(v))
+      outward += geometry::twice_area(outer_surface.surface(), t);
     const Ball ball{place + radius * outward.normalized(), radius};
     const auto node = nodes.facing(v, ball);
     const auto flat = nodes.facing(v, {ball.centre, 1e9});
@@ -89,22 +90,22 @@ TEST(PressedNodes, facets_of_a_curved_skin_add_its_own_curvature) {
 
 // The pressure that falls linearly from a node to its neighbours, over the distance from it, by a
 // fine sum over squares; a node in the middle of the top, its triangles around it.
-TEST(PressedNodes, own_sinking_is_the_potential_of_a_hat) {
+TEST(PressedNodes, own_surface_displacement_is_the_potential_of_a_hat) {
   const double cell = 1e-3;
   for (const auto pattern : {geometry::CellPattern::kuhn, geometry::CellPattern::mirrored}) {
-    const auto skin = box_skin(cell, pattern);
-    const int vertex = vertex_at(skin, Vec3(2e-3, 2e-3, 4e-3));
-    const auto node = SkinNodes(skin).facing(vertex, {Vec3(2e-3, 2e-3, 15e-3), 11e-3});
+    const auto outer_surface = box_surface(cell, pattern);
+    const int vertex = vertex_at(outer_surface, Vec3(2e-3, 2e-3, 4e-3));
+    const auto node = SurfaceNodes(outer_surface).facing(vertex, {Vec3(2e-3, 2e-3, 15e-3), 11e-3});
     ASSERT_TRUE(node);
-    const Vec3 middle = skin.surface().vertices[static_cast<std::size_t>(vertex)];
+    const Vec3 middle = outer_surface.surface().vertices[static_cast<std::size_t>(vertex)];
     constexpr int samples = 1000;
     double potential = 0.0;
     double force = 0.0;
-    for (const int t : skin.neighbours().triangles_at(vertex)) {
-      const auto& corners = skin.surface().triangles[static_cast<std::size_t>(t)];
+    for (const int t : outer_surface.neighbours().triangles_at(vertex)) {
+      const auto& corners = outer_surface.surface().triangles[static_cast<std::size_t>(t)];
       const auto at = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
       const auto corner = [&](long k) {
-        return skin.surface()
+        return outer_surface.surface()
             .vertices[static_cast<std::size_t>(corners[static_cast<std::size_t>((at + k) % 3)])];
       };
       const Vec3 b = corner(1) - middle;

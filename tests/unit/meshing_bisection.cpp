@@ -111,7 +111,7 @@ TEST(TrueBoundary, IsApproachedByShapesAndBySurfacesWithoutShape) {
     const double after = 1.0 - geometry::volume(mesh) / whole;
     EXPECT_LT(std::abs(after), (known ? 0.3 : 0.35) * before) << before;
     double worst = 0.0;
-    for (const int node : geometry::skin(mesh).nodes) {
+    for (const int node : geometry::outer_surface(mesh).nodes) {
       const Vec3 place = (mesh.nodes[as_index(node)] - Vec3(0.03, 0.025, 0.02))
                              .cwiseQuotient(Vec3(0.03, 0.025, 0.02));
       worst = std::max(worst, std::abs(place.norm() - 1.0));
@@ -185,7 +185,7 @@ TEST(CutAt, CutsTheSkinAloneAndStaysOnTheShape) {
       at_height += one.z() == z ? 1 : 0;
     }
   EXPECT_GT(at_height, 30);
-  for (const int node : geometry::skin(mesh).nodes) {
+  for (const int node : geometry::outer_surface(mesh).nodes) {
     const Vec3 place = (mesh.nodes[as_index(node)] - Vec3(0.03, 0.025, 0.02))
                            .cwiseQuotient(Vec3(0.03, 0.025, 0.02));
     EXPECT_NEAR(place.norm(), 1.0, 0.012);

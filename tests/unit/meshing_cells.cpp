@@ -193,7 +193,7 @@ TEST_F(CellFiles, every_format_gives_the_same_body) {
     for (int t = 0; t < 12; ++t)
       if (read.mesh.region(t) == part) right += geometry::signed_volume(read.mesh, t);
     EXPECT_NEAR(right, 1.0, 1e-12);  // rounding
-    EXPECT_TRUE(read.remark.find("were cut into tetrahedra") != std::string::npos);
+    EXPECT_TRUE(read.warning.find("were cut into tetrahedra") != std::string::npos);
   }
 }
 
@@ -219,9 +219,9 @@ TEST_F(CellFiles, what_only_touches_is_parted) {
     }
     const NamedMesh read = read_mesh(written("touch.mesh", text + "End\n"), 1.0);
     EXPECT_EQ(read.mesh.nodes.size(), 16u);
-    EXPECT_NE(read.remark.find(edge ? "2 nodes of" : "1 node of"), std::string::npos)
-        << read.remark;
-    EXPECT_FALSE(geometry::joints(geometry::skin(read.mesh).surface).refused);
+    EXPECT_NE(read.warning.find(edge ? "2 nodes of" : "1 node of"), std::string::npos)
+        << read.warning;
+    EXPECT_FALSE(geometry::joints(geometry::outer_surface(read.mesh).surface).refused);
   }
 }
 

@@ -19,8 +19,8 @@ geometry::Surface corner(double scale = 0.01) {
 }
 
 geometry::Surface box(double scale = 0.01, int cells = 3) {
-  return geometry::skin(geometry::cuboid({scale, scale, scale}, {cells, cells, cells},
-                                         geometry::CellPattern::kuhn))
+  return geometry::outer_surface(geometry::cuboid({scale, scale, scale}, {cells, cells, cells},
+                                                  geometry::CellPattern::kuhn))
       .surface;
 }
 

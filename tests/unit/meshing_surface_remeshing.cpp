@@ -259,7 +259,7 @@ TEST(FileMesh, OfAFewTrianglesHasTheNodesAskedFor) {
   for (const double degrees : {3.0, 10.0, 30.0}) {
     const FileMesh made = tetgen_file(wedge(degrees), {}, {.nodes = 3000}, time_given);
     EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / 3000.0, 1.0, 0.03) << degrees;
-    EXPECT_EQ(made.remark, "") << degrees;
+    EXPECT_EQ(made.warning, "") << degrees;
   }
 }
 
@@ -274,31 +274,32 @@ TEST(FileMesh, OfAFineSurfaceHasTheNodesAskedForAndSaysWhatItDid) {
     const FileMesh made = tetgen_file(fine, {}, {.nodes = nodes}, time_given);
     EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / nodes, 1.0, 0.03);
     EXPECT_NEAR(geometry::volume(made.mesh) / volume(fine), 1.0, 0.005);
-    EXPECT_NE(made.remark.find("the " + std::to_string(fine.triangles.size()) +
-                               " triangles of the surface became "),
+    EXPECT_NE(made.warning.find("the " + std::to_string(fine.triangles.size()) +
+                                " triangles of the surface became "),
               std::string::npos)
-        << made.remark;
-    EXPECT_NE(made.remark.find(" mm apart"), std::string::npos) << made.remark;
+        << made.warning;
+    EXPECT_NE(made.warning.find(" mm apart"), std::string::npos) << made.warning;
   }
 }
 
 TEST(FileMesh, OfNeedlesHasTheNodesAskedFor) {
   const FileMesh made = tetgen_file(strips(128, 0.030, 0.080), {}, {.nodes = 728}, time_given);
   EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / 728.0, 1.0, 0.03);
-  EXPECT_NE(made.remark.find("because 512 of them are needles"), std::string::npos) << made.remark;
+  EXPECT_NE(made.warning.find("because 512 of them are needles"), std::string::npos)
+      << made.warning;
 }
 
 TEST(FileMesh, OfAFineSurfaceWithAnEdgeLengthIsCoarserToo) {
   const FileMesh made =
       tetgen_file(sampled(geometry::Cuboid{}, 1e-3), {}, {.edge_length = 8e-3}, time_given);
   EXPECT_LT(made.mesh.nodes.size(), 1500u);
-  EXPECT_NE(made.remark.find("finer than the mesh asked for"), std::string::npos) << made.remark;
+  EXPECT_NE(made.warning.find("finer than the mesh wanted"), std::string::npos) << made.warning;
 }
 
 TEST(FileMesh, KeepsAGoodSurface) {
   const Surface good = sampled(geometry::Cuboid{}, 8e-3);
   const FileMesh made = tetgen_file(good, {}, {.nodes = 728}, time_given);
-  EXPECT_EQ(made.remark, "");
+  EXPECT_EQ(made.warning, "");
   EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / 728.0, 1.0, 0.03);
 }
 
@@ -308,9 +309,9 @@ TEST(FileMesh, HasMoreNodesWhereTheSurfaceNeedsThem) {
   for (Vec3& vertex : fine.vertices) vertex *= 0.01;  // 80 mm wide
   const FileMesh made = tetgen_file(fine, {}, {.nodes = 100}, time_given);
   EXPECT_GT(made.mesh.nodes.size(), 125u);
-  EXPECT_NE(made.remark.find(" nodes instead of 100, because it keeps the surface's vertices"),
+  EXPECT_NE(made.warning.find(" nodes instead of 100, because it keeps the surface's vertices"),
             std::string::npos)
-      << made.remark;
+      << made.warning;
   EXPECT_LT(made.mesh.nodes.size(), 4000u);
 }
 

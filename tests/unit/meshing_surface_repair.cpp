@@ -38,7 +38,7 @@ std::string told(const Surface& broken, double part) {
   check_closed(whole.surface, "mended");
   const double volume = geometry::enclosed(body()).volume;
   EXPECT_NEAR(geometry::enclosed(whole.surface).volume, volume, part * volume);
-  return whole.remark;
+  return whole.warning;
 }
 
 constexpr double rounding = 1e-9;  // where no vertex moves
@@ -47,7 +47,7 @@ TEST(SurfaceRepair, a_sound_surface_stays_to_the_bit) {
   const WholeSurface whole = whole_surface(body(), "paw", {});
   EXPECT_EQ(whole.surface.vertices, body().vertices);
   EXPECT_EQ(whole.surface.triangles, body().triangles);
-  EXPECT_EQ(whole.remark, "");
+  EXPECT_EQ(whole.warning, "");
 }
 
 TEST(SurfaceRepair, small_holes_are_closed) {
@@ -98,7 +98,7 @@ TEST(SurfaceRepair, triangles_that_cross_are_replaced) {
 
 TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   const std::string speck = told(with(body(), body(), Vec3(0.1, 0, 0), 0.02, false), rounding);
-  EXPECT_NE(speck.find("part 1 of 2 is taken, and 1 speck left out"), std::string::npos) << speck;
+  EXPECT_NE(speck.find("part 1 of 2 is taken, and 1 speck excluded"), std::string::npos) << speck;
   const Surface two = with(body(), body(), Vec3(0.2, 0, 0), 0.5, false);
   const std::string text = told(two, rounding);
   EXPECT_NE(text.find("part 1 of 2 is taken, without part 2 near ("), std::string::npos) << text;
@@ -106,7 +106,7 @@ TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   EXPECT_NEAR(geometry::enclosed(second).volume, 0.125 * geometry::enclosed(body()).volume, 1e-12);
 }
 
-// However their triangles are turned; what lies in the cavity is left out.
+// However their triangles are turned; what lies in the cavity is excluded.
 TEST(SurfaceRepair, parts_inside_the_largest_are_cavities) {
   const double volume = geometry::enclosed(body()).volume;
   const Vec3 shift(0.02, 0.015, 0.01);
@@ -115,11 +115,11 @@ TEST(SurfaceRepair, parts_inside_the_largest_are_cavities) {
     const WholeSurface whole = whole_surface(hollow, "paw", {});
     check_closed(whole.surface, "hollow");
     EXPECT_NEAR(geometry::enclosed(whole.surface).volume, 0.875 * volume, 1e-12);
-    EXPECT_NE(whole.remark.find("part 1 of 2 is taken, with a cavity in it: part 2 near (40, 30, "
-                                "20) mm with 13 % of its volume"),
+    EXPECT_NE(whole.warning.find("part 1 of 2 is taken, with a cavity in it: part 2 near (40, 30, "
+                                 "20) mm with 13 % of its volume"),
               std::string::npos)
-        << whole.remark;
-    EXPECT_EQ(whole.remark.find("was mended") != std::string::npos, !inwards);
+        << whole.warning;
+    EXPECT_EQ(whole.warning.find("was mended") != std::string::npos, !inwards);
     // Asked for by its number, a part is filled.
     const Surface filled = whole_surface(hollow, "paw", {true, 1}).surface;
     EXPECT_NEAR(geometry::enclosed(filled).volume, volume, 1e-12);
@@ -130,7 +130,7 @@ TEST(SurfaceRepair, parts_inside_the_largest_are_cavities) {
       with(with(body(), body(), shift, 0.5, true), body(), Vec3(0.03, 0.0225, 0.015), 0.25, false);
   const WholeSurface whole = whole_surface(three, "paw", {});
   EXPECT_NEAR(geometry::enclosed(whole.surface).volume, 0.875 * volume, 1e-12);
-  EXPECT_NE(whole.remark.find("without part 3"), std::string::npos) << whole.remark;
+  EXPECT_NE(whole.warning.find("without part 3"), std::string::npos) << whole.warning;
 }
 
 TEST(SurfaceRepair, what_is_worse_is_refused_with_its_size) {

@@ -75,7 +75,8 @@ TEST_P(NearTarget, edges_on_the_surface_are_as_long_as_inside) {
 INSTANTIATE_TEST_SUITE_P(Counts, NearTarget, testing::Values(140, 728, 3000));
 
 TEST(TetGen, top_is_flat_and_whole) {
-  const geometry::Surface surface = geometry::skin(tetgen_cuboid(cube, 728, time_given)).surface;
+  const geometry::Surface surface =
+      geometry::outer_surface(tetgen_cuboid(cube, 728, time_given)).surface;
   Vec3 top = Vec3::Zero();
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& corners = surface.triangles[t];

@@ -197,7 +197,7 @@ TEST(TetGenBody, keeps_the_triangles_of_a_fine_surface) {
   const geometry::Surface& surface = body.parts.front().surface;
   const geometry::TetMesh mesh = tetgen_body(body, {.nodes = 700}, time_given);
   EXPECT_NEAR(static_cast<double>(mesh.nodes.size()), 700, 0.03 * 700);
-  const geometry::Skin outside = geometry::skin(mesh);
+  const geometry::OuterSurface outside = geometry::outer_surface(mesh);
   EXPECT_EQ(outside.surface.vertices.size(), surface.vertices.size());
   std::set<std::array<double, 3>> places;
   for (const Vec3& v : surface.vertices) places.insert({v.x(), v.y(), v.z()});

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <regex>
+
+#include "plot/gnuplot_text.h"
 
 namespace palpate::plot {
 namespace {
@@ -61,6 +65,21 @@ TEST(Contours, ASaddleIsCutAsItsMiddleSays) {
   EXPECT_TRUE(around(high[0], 0, 1) || around(high[1], 0, 1));
   EXPECT_TRUE(around(low[0], 0, 0) || around(low[1], 0, 0));
   EXPECT_TRUE(around(low[0], 1, 1) || around(low[1], 1, 1));
+}
+
+// The labels of an axis from `low` to `high`: `'0.01' 0.01`, but not `'' 0.02 1`.
+std::size_t labels(const std::string& axis, double low, double high) {
+  const std::string script = plot::gnuplot_logarithmic(axis, low, high);
+  const std::regex label("'[^']+' ");
+  return static_cast<std::size_t>(
+      std::distance(std::sregex_iterator(script.begin(), script.end(), label), {}));
+}
+
+TEST(Ticks, OfALogarithmicAxisHaveFiveLabels) {
+  for (const double low : {1e-3, 2e-3, 5e-3})
+    for (const double factor : {10.0, 30.0, 100.0, 400.0, 1e4, 1e6})
+      EXPECT_GE(labels("y", low, low * factor), 5U) << low << " " << factor;
+  EXPECT_LE(labels("x", 1e-3, 10.0), 5U) << "beside each other there is no room for more";
 }
 
 }  // namespace

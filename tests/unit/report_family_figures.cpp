@@ -37,7 +37,7 @@ TEST(FamilyFigures, ASlideIsDrawnAlongItsWay) {
     record.name = "test";
     return report::family_figures(family, {record}, {});
   };
-  const auto force = drawn("travel");
+  const auto force = drawn("displacement");
   ASSERT_EQ(force.size(), 2U);
   EXPECT_EQ(force[0].series.at(0).step, 1);  // the slide is no indentation
   EXPECT_EQ(force[1].name, "figure_force_slide");
@@ -47,7 +47,7 @@ TEST(FamilyFigures, ASlideIsDrawnAlongItsWay) {
   // Where the force stays, the travel is what is felt.
   const auto travel = drawn("force");
   ASSERT_EQ(travel.size(), 2U);
-  EXPECT_EQ(travel[1].name, "figure_travel_slide");
+  EXPECT_EQ(travel[1].name, "figure_displacement_slide");
   EXPECT_EQ(travel[1].series.at(0).y_column, "travel_mm");
 }
 

@@ -28,7 +28,7 @@ scenario::Case read(const std::string& text) {
 
 const std::string press = "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
 
-TEST(Choose, TwentySceneEachItsRung) {
+TEST(Choose, TwentyScenesEachItsModel) {
   const std::map<std::string, Model> expected{
       {"bone under a silicone finger", Model::solid},
       {"muscle without end", Model::hertz},
@@ -55,17 +55,17 @@ TEST(Choose, TwentySceneEachItsRung) {
     EXPECT_FALSE(choice.given) << scene.name;
     const auto found = expected.find(scene.name);
     if (found != expected.end()) {
-      EXPECT_STREQ(scenario::rung(choice.chosen.solver.model).word,
-                   scenario::rung(found->second).word)
+      EXPECT_STREQ(scenario::traits(choice.chosen.solver.model).word,
+                   scenario::traits(found->second).word)
           << scene.name;
     }
     // What is taken is predicted to serve, or nothing is.
     double least = 1.0;
     double taken = 1.0;
-    for (const Forecast& rung : choice.rungs) {
-      if (!rung.cannot.empty()) continue;
-      least = std::min(least, rung.error);
-      if (rung.model == choice.chosen.solver.model) taken = rung.error;
+    for (const Forecast& forecast : choice.forecasts) {
+      if (!forecast.cannot.empty()) continue;
+      least = std::min(least, forecast.error);
+      if (forecast.model == choice.chosen.solver.model) taken = forecast.error;
     }
     EXPECT_TRUE(taken <= 0.05 || taken == least) << scene.name;
   }
@@ -160,7 +160,7 @@ TEST(Choose, AGivenModelIsKeptAndStillAsked) {
               Integrator::central_difference)
         << key;
   EXPECT_GE(choice.questions.size(), 8U);
-  EXPECT_EQ(choice.rungs.size(), scenario::ladder.size());
+  EXPECT_EQ(choice.forecasts.size(), scenario::model_table.size());
 }
 
 // What stands beside a named model is what would be chosen without it, large strains included.

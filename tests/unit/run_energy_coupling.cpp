@@ -23,11 +23,11 @@ enum class Load { normal, tangential };
 BeyondHalfSpace beyond(const scene::Scene& scene, Load load, int finer = 1) {
   const tissue::Part part = tissue::whole_part(scene.specimen->network);
   EnergyCoupling coupling(scene, part, scene.specimen->held);
-  const geometry::SmoothSurface& skin = *scene.specimen->surface;
+  const geometry::SmoothSurface& outer_surface = *scene.specimen->surface;
   contact::Patch patch;
   patch.at = scene::first_touch(scene).at;
-  patch.position = skin.position(patch.at);
-  patch.normal = skin.normal(patch.at);
+  patch.position = outer_surface.position(patch.at);
+  patch.normal = outer_surface.normal(patch.at);
   patch.axis = patch.normal.unitOrthogonal();
   patch.a = patch.b = 3e-3;
   return coupling.beyond(patch, load == Load::tangential ? patch.axis : Vec3(-patch.normal), finer);
@@ -49,7 +49,8 @@ TEST(EnergyCoupling, AFinerQuadratureChangesNothing) {
     for (const Load load : {Load::normal, Load::tangential}) {
       const BeyondHalfSpace once = beyond(scene, load);
       const BeyondHalfSpace twice = beyond(scene, load, 2);
-      EXPECT_NEAR(once.sinking, twice.sinking, 0.003 * half_space(scene)) << body;
+      EXPECT_NEAR(once.surface_displacement, twice.surface_displacement, 0.003 * half_space(scene))
+          << body;
       EXPECT_NEAR(once.error, twice.error, 0.003 * half_space(scene)) << body;
       EXPECT_GT(once.error, 0.0);
     }
@@ -65,9 +66,9 @@ TEST(EnergyCoupling, ALumpOfTheSameTissueIsNone) {
     const BeyondHalfSpace with = beyond(scene, load);
     scene.specimen->mesh.regions.clear();
     const BeyondHalfSpace without = beyond(scene, load);
-    EXPECT_NE(with.sinking, without.sinking);
-    EXPECT_NEAR(with.sinking + with.error, without.sinking + without.error,
-                0.01 * half_space(scene));
+    EXPECT_NE(with.surface_displacement, without.surface_displacement);
+    EXPECT_NEAR(with.surface_displacement + with.error,
+                without.surface_displacement + without.error, 0.01 * half_space(scene));
   }
 }
 

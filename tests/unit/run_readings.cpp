@@ -72,11 +72,11 @@ TEST(Readings, FindingsHaveTheForceOfHertzAtEveryIndentationThatIsAskedFor) {
     EXPECT_NEAR(std::get<double>(finding(record, name)), hertz, 1e-5 * hertz) << name;
   }
   EXPECT_TRUE(std::holds_alternative<std::monostate>(finding(record, "force_at_3_mm_N")));
-  std::string remarks;
-  for (const std::string& remark : record.remarks) remarks += remark + "\n";
-  EXPECT_NE(remarks.find("did not reach the indentation of 3 mm that `output.force_at` asks for"),
+  std::string warnings;
+  for (const std::string& warning : record.warnings) warnings += warning + "\n";
+  EXPECT_NE(warnings.find("did not reach the indentation of 3 mm that `output.force_at` asks for"),
             std::string::npos)
-      << remarks;
+      << warnings;
 }
 
 TEST(Readings, AKelvinVoigtSolidHasHalfOfItsCreepAtTauLnTwo) {

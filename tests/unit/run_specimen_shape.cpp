@@ -26,7 +26,7 @@ void expect_same_bits(const scene::Specimen& a, const scene::Specimen& b) {
   EXPECT_EQ(a.mesh.tetrahedra, b.mesh.tetrahedra);
   EXPECT_EQ(a.network.stiffness, b.network.stiffness);
   EXPECT_EQ(a.network.node_mass, b.network.node_mass);
-  EXPECT_EQ(a.skin, b.skin);
+  EXPECT_EQ(a.outer_surface, b.outer_surface);
   EXPECT_EQ(a.surface->surface().vertices, b.surface->surface().vertices);
   EXPECT_EQ(a.surface->corner_normal(0, 1), b.surface->corner_normal(0, 1));
   EXPECT_EQ(a.held, b.held);

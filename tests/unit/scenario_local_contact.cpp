@@ -26,7 +26,7 @@ TEST(LocalContact, HasDefaults) {
   EXPECT_EQ(slide.by, 0.010);
   EXPECT_EQ(slide.rate, 0.005);
   EXPECT_EQ(slide.direction, 0.0);
-  EXPECT_EQ(slide.keep, Slide::Keep::travel);
+  EXPECT_EQ(slide.keep, Slide::Keep::displacement);
 }
 
 TEST(LocalContact, IsReadAndEchoed) {
@@ -78,7 +78,7 @@ TEST(LocalContact, HasRanges) {
       {"[[step]]\nkind = \"slide\"\nby = \"-1 mm\"\n",
        "press.toml:6:6: `by` must be above 0 mm, got `-1 mm" + range},
       {"[[step]]\nkind = \"slide\"\nkeep = \"depth\"\n",
-       "press.toml:6:8: `keep` does not know `depth`; it is one of travel, force"},
+       "press.toml:6:8: `keep` does not know `depth`; it is one of displacement, force"},
   });
 }
 
@@ -87,7 +87,7 @@ TEST(LocalContact, SlidesKeepAForceThatIsThere) {
   const std::string away = "[[step]]\nkind = \"retract\"\nto = \"-1 mm\"\n";
   const std::string sentence =
       "`slide` has no force to keep, for the finger does not press yet; put an `indent` before it, "
-      "or write `keep = \"travel\"`";
+      "or write `keep = \"displacement\"`";
   EXPECT_EQ(refusal(press + slide), "accepted");
   EXPECT_EQ(refusal("[[step]]\nto = \"1 N\"\n" + slide), "accepted");
   EXPECT_EQ(refusal(slide + press), "press.toml:3:8: " + sentence);

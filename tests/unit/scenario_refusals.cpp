@@ -87,7 +87,7 @@ TEST(Refusals, KeysThatTheModelCannotHonour) {
        "or "
        "another integrator"},
       {"[solver]\nintegrator = \"quasi_static\"\n[tissue]\nviscosity = \"nodal_drag\"\n",
-       "press.toml:5:14: `quasi_static` has no drag against the ground; set `solver.integrator = "
+       "press.toml:5:14: `quasi_static` has no nodal drag; set `solver.integrator = "
        "\"backward_difference\"` or another viscosity"},
   });
   const std::string creep = "[[step]]\nkind = \"creep\"\n";

@@ -75,7 +75,7 @@ TEST(Steps, OfACompressionHaveOneLawOfTimeAndOnePlaten) {
        {"[solver]\nkinematics = \"nonlinear\"\n",
         "press.toml:2:8: `compress` is computed for small strain; leave `solver.kinematics` out"},
        {more + "nodal_drag\"\n",
-        "press.toml:2:8: `compress` is computed without drag against the ground; write another "
+        "press.toml:2:8: `compress` is computed without nodal drag; write another "
         "`tissue.viscosity`"},
        {compress + "platen = \"bonded\"\n",
         "press.toml:4:8: all steps of a scenario have one upper platen; put steps with another "

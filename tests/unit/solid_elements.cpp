@@ -192,7 +192,7 @@ TEST(SolidContact, ForceIsTheGradientOfTheEnergyAndStiffnessThatOfTheForceOfFlat
       (contact.energy(at + step * along, balls) - contact.energy(at - step * along, balls)) /
       (2.0 * step);
   EXPECT_NEAR(slope, force.dot(along), 1e-6 * force.norm());
-  // The part of the stiffness that is left out has the indenters' curvature as a factor.
+  // The part of the stiffness that is excluded has the indenters' curvature as a factor.
   const std::vector<Indenter> flats{{.pole = Vec3(0.008, 0.007, 0.0095)},
                                     {.pole = Vec3(0.012, 0.007, 0.0097), .share = 0.7}};
   fingers = flats;

@@ -115,9 +115,9 @@ TEST(FingerPress, SeveralElasticSpheresShareTheForce) {
   for (const double x : {-5e-3, 5e-3})
     for (const double y : {-5e-3, 5e-3}) order.centres.emplace_back(x, y, 0.0);
   touch(order, Vec3(0.024, 0.022, 0.024));
-  const geometry::SmoothSurface skin(
+  const geometry::SmoothSurface outer_surface(
       geometry::sampled(*order.body.shape, {0.004, 0.004}).parts.front().surface);
-  order.skin = &skin;
+  order.outer_surface = &outer_surface;
   order.ball = tissue::Isotropic{100e3, 0.4995};
   const double softer = (1.0 - 0.4995 * 0.4995) / 100e3;
   const double tissue = (1.0 - 0.44 * 0.44) / 16.3e3;

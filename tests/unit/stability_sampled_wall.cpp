@@ -79,7 +79,7 @@ TEST(SampledWall, LimitIsThatOfItsRoots) {
   }
   Device light;
   light.sampled.damping = 0.01;
-  // b T / (6 m) above the bound where the device is sluggish; its square is left out.
+  // b T / (6 m) above the bound where the device is sluggish; its square is excluded.
   const double x = light.sampled.damping * light.sampled.frame / light.mass;
   EXPECT_NEAR(wall_stiffness_limit(light) / contact::passive_stiffness(light.sampled),
               1.0 + x / 6.0, x * x);

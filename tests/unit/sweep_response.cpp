@@ -211,7 +211,7 @@ TEST(Response, EveryDesignIsDrawnInSilence) {
                                  force + ".csv", force + ".gp", force + ".svg"}));
 }
 
-// A part of a sweep may leave out whole curves, or all cases of the figure.
+// A part of a sweep may omit whole curves, or all cases of the figure.
 TEST(Response, OfAPartIsDrawnInSilence) {
   if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
   const std::string name = "response_force_at_1_mm_N";
@@ -243,6 +243,9 @@ TEST(Response, AScriptIsTheSameTwice) {
   const std::string script = response_sheet(*made).script;
   EXPECT_NE(script.find("set logscale x"), std::string::npos);
   EXPECT_NE(script.find("set logscale cb"), std::string::npos);
+  EXPECT_NE(script.find("linecolor rgb '#" + plot::palette_colour(plot::brightest_line)),
+            std::string::npos)
+      << "the last curve has a contrast of 3 to white";
   EXPECT_NE(script.find("set xlabel 'tissue.young_modulus (kPa)'"), std::string::npos);
 }
 

@@ -25,7 +25,7 @@ SweepRow example() {
                 {"nothing", std::monostate{}},
                 {"empty", std::string()},
                 {"model", std::string("nan")}};
-  row.remarks = {"Deep.", "", "\\t is no tab"};
+  row.warnings = {"Deep.", "", "\\t is no tab"};
   row.curve = {{"time_s", "force_N"}, {{0.0, 1.0}, {0.1, std::monostate{}}, {0.2, -1e-300}}};
   return row;
 }
@@ -58,7 +58,7 @@ TEST(SweepRow, is_read_back_to_the_bit) {
   EXPECT_EQ(back->outcome, SweepOutcome::diverged);
   EXPECT_EQ(back->reason, row.reason);
   EXPECT_EQ(back->name, row.name);
-  EXPECT_EQ(back->remarks, row.remarks);
+  EXPECT_EQ(back->warnings, row.warnings);
   ASSERT_EQ(back->values.size(), row.values.size());
   for (std::size_t i = 0; i < row.values.size(); ++i) {
     EXPECT_EQ(back->values[i].name, row.values[i].name);
@@ -75,7 +75,7 @@ TEST(SweepRow, one_without_anything_is_read_back) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->id, 7U);
   EXPECT_TRUE(back->values.empty());
-  EXPECT_TRUE(back->remarks.empty());
+  EXPECT_TRUE(back->warnings.empty());
   EXPECT_TRUE(back->curve.columns.empty());
 }
 

@@ -230,7 +230,7 @@ TEST(Sensitivity, LeavesOutBlocksWithAFailedCaseAndSaysSo) {
   EXPECT_EQ(found.indices[1].indices.first.value, saltelli_indices(shorter, 3)[1].first.value);
   ASSERT_EQ(found.notes.size(), 1u);
   EXPECT_EQ(found.notes[0].substr(0, 61),
-            "sensitivity of `y`: 2 of 50 blocks of 5 cases are left out, b");
+            "sensitivity of `y`: 2 of 50 blocks of 5 cases are excluded, b");
 }
 
 TEST(Sensitivity, NeedsTwoCompleteBlocks) {

@@ -10,7 +10,7 @@
 
 namespace palpate::identify {
 
-struct FixedRung {
+struct FixedModel {
   scenario::Case one;  // every `auto` is replaced by the choice made for it
   scenario::Model model = scenario::Model::hertz;
   bool given = false;        // the scenario names the model
@@ -24,11 +24,11 @@ struct FixedRung {
 // Returns the cheapest model whose estimated error is within `solver.tolerance` at the corners and
 // in the middle of the box (more than 5 unknowns: at the ends of each, the others in the middle);
 // if there is none, the model with the smallest worst error. Viscosity in the contact, inertia or
-// the factor of deep presses is used throughout if any of these points needs it; waves are left out
-// of the flow between platens. `document` gives messages their place. Throws InputError with the
-// problems of the middle if the scenario is invalid at all of these points.
-[[nodiscard]] FixedRung fix_rung(const scenario::Case& one, const Node& document,
-                                 std::span<const Unknown> unknowns);
+// the factor of deep presses is used throughout if any of these points needs it; inertia is
+// neglected of the flow between platens. `document` gives messages their place. Throws InputError
+// with the problems of the middle if the scenario is invalid at all of these points.
+[[nodiscard]] FixedModel fix_model(const scenario::Case& one, const Node& document,
+                                   std::span<const Unknown> unknowns);
 
 // Relative change of a specimen's flow by its lowest axial wave, 1 / (omega_1 tau)^2 with omega_1
 // of theory.md [damping]. Nothing unless a cuboid of Kelvin-Voigt or SLS tissue is between platens.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mechanics/energy_coupling.h"
-#include "scene/sinking_store.h"
+#include "scene/surface_displacement_store.h"
 
 namespace palpate::mechanics {
 
@@ -18,17 +18,17 @@ namespace palpate::mechanics {
 // over the surface linearly within a triangle. Where the finger first touches there is no
 // interpolation.
 //                                                                    docs/theory.md [energy]
-class BodySinking {
+class BodySurfaceDisplacement {
  public:
   // The references must outlive this. `deepest` (m) is the largest depth of a contact.
-  BodySinking(const scene::Scene& scene, const tissue::Part& part, std::span<const char> held,
-              double deepest);
+  BodySurfaceDisplacement(const scene::Scene& scene, const tissue::Part& part,
+                          std::span<const char> held, double deepest);
 
   struct Value {
-    double sinking = 0.0;  // m/N, s + e
-    double slope = 0.0;    // 1/N, of that with respect to the radius
-    double error = 0.0;    // m/N, e
-    double doubt = 0.0;    // m/N, BeyondHalfSpace::doubt
+    double surface_displacement = 0.0;  // m/N, s + e
+    double slope = 0.0;                 // 1/N, of that with respect to the radius
+    double error = 0.0;                 // m/N, e
+    double doubt = 0.0;                 // m/N, BeyondHalfSpace::doubt
   };
   // The value under the patch; an ellipse counts as a circle of the same area.
   [[nodiscard]] Value at(const contact::Patch& patch);
@@ -39,14 +39,14 @@ class BodySinking {
   // flat layers.
   [[nodiscard]] Eigen::Matrix3d shear(const contact::Patch& patch);
 
-  // The error of the sinking under a circular patch per tetrahedron of the part, m/N.
+  // The error of the surface displacement under a circular patch per tetrahedron of the part, m/N.
   [[nodiscard]] std::vector<double> errors(const contact::Patch& patch);
 
   // SymmetricSolver::error() of all places so far.
   [[nodiscard]] double solution_error() const { return solution_error_; }
 
-  // The sinking of the rest w under the vertices of `read`, along `normal`, per newton on
-  // `pressed`, m/N.
+  // The surface displacement of the rest w under the vertices of `read`, along `normal`, per newton
+  // on `pressed`, m/N.
   [[nodiscard]] double rest(const Vec3& normal, const contact::Spread& read,
                             std::span<const int> nodes, const contact::Patch& pressed);
 
@@ -92,7 +92,7 @@ class BodySinking {
   double solution_error_ = 0.0;
   bool rubs_;                     // tangential loads are evaluated
   geometry::SurfacePoint first_;  // where the finger touches first
-  std::string key_;               // of the body in scene::SinkingStore, if there is one
+  std::string key_;               // of the body in scene::SurfaceDisplacementStore, if there is one
   std::optional<Place> at_first_;
   // Per vertex, one place for each smooth side of its creases.
   std::map<int, std::vector<std::pair<Vec3, Place>>> at_vertices_;

@@ -1,4 +1,4 @@
-// The keys of the ladder: what is read, completed and refused.
+// The keys of the table of models: what is read, completed and refused.
 #include "scenario_text.h"
 
 namespace palpate::scenario {
@@ -10,7 +10,7 @@ std::string reread(const std::string& text) {
   return written;
 }
 
-TEST(LadderKeys, TheContactKnowsViscosityThatTheScenarioGives) {
+TEST(ModelKeys, TheContactKnowsViscosityThatTheScenarioGives) {
   using Viscosity = Contact::Viscosity;
   EXPECT_EQ(read_one(press).contact.viscosity, Viscosity::none);
   const std::string given = press + "[tissue]\nviscosity = \"kelvin_voigt\"\n";
@@ -26,7 +26,7 @@ TEST(LadderKeys, TheContactKnowsViscosityThatTheScenarioGives) {
   EXPECT_NE(reread(given).find("viscosity = \"tissue\""), std::string::npos);
 }
 
-TEST(LadderKeys, PronyBranchesAreReadAndEchoed) {
+TEST(ModelKeys, PronyBranchesAreReadAndEchoed) {
   const std::string text = press +
                            "[tissue]\nviscosity = \"prony\"\n"
                            "[[tissue.branch]]\nrelaxation_time = \"4 ms\"\nratio = 0.5\n"
@@ -41,7 +41,7 @@ TEST(LadderKeys, PronyBranchesAreReadAndEchoed) {
   EXPECT_EQ(again.tissue.branches[1].relaxation_time, 1.4);
 }
 
-TEST(LadderKeys, ARegionsPoissonRatioReachesModelsThatHonourIt) {
+TEST(ModelKeys, ARegionsPoissonRatioReachesModelsThatHonourIt) {
   const std::string region =
       "[tissue]\nmesh = { kind = \"tetgen\" }\n[[region]]\nkind = \"sphere\"\nmaterial = "
       "\"muscle\"\npoisson_ratio = 0.45\n";
@@ -54,7 +54,7 @@ TEST(LadderKeys, ARegionsPoissonRatioReachesModelsThatHonourIt) {
             0.4);  // the material's
 }
 
-TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
+TEST(ModelKeys, RefusalsNameTheKeyAndARemedy) {
   expect_refused({
       {"[tissue]\nviscosity = \"prony\"\n",
        "press.toml:5:13: `prony` needs branches; add a `[[tissue.branch]]` with "
@@ -98,7 +98,8 @@ TEST(LadderKeys, RefusalsNameTheKeyAndARemedy) {
        "`solver.volume = \"nodal\"` or `solver.model = \"coupled_springs\"`, or leave it out"},
       {"[[step]]\nkind = \"slide\"\nby = \"1 mm\"\nkeep = \"force\"\n[tissue]\nviscosity = "
        "\"kelvin_voigt\"\n",
-       "press.toml:7:8: a slide cannot keep a force that relaxes; write `keep = \"travel\"`, or "
+       "press.toml:7:8: a slide cannot keep a force that relaxes; write `keep = \"displacement\"`, "
+       "or "
        "`contact.viscosity = \"none\"`"},
   });
   expect_refused({{"[solver]\nmodel = \"layer\"\n",

@@ -1,10 +1,10 @@
 // Places by body and vertex.
-#include "scene/sinking_store.h"
+#include "scene/surface_displacement_store.h"
 
 namespace palpate::scene {
 
-std::optional<SunkPlace> SinkingStore::find(const std::string& body, int vertex,
-                                            const Vec3& normal) {
+std::optional<SunkPlace> SurfaceDisplacementStore::find(const std::string& body, int vertex,
+                                                        const Vec3& normal) {
   const std::lock_guard lock(looking_up_);
   const auto known = places_.find({body, vertex});
   if (known == places_.end()) return std::nullopt;
@@ -13,7 +13,7 @@ std::optional<SunkPlace> SinkingStore::find(const std::string& body, int vertex,
   return std::nullopt;
 }
 
-void SinkingStore::keep(const std::string& body, int vertex, const SunkPlace& place) {
+void SurfaceDisplacementStore::keep(const std::string& body, int vertex, const SunkPlace& place) {
   constexpr double most_bytes = 2e8;
   const double bytes = static_cast<double>(sizeof(SunkPlace) + body.size()) +
                        sizeof(double) * static_cast<double>(place.rest.size());

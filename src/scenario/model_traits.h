@@ -1,5 +1,5 @@
-// The ladder of models: name, requirements, abilities, error and cost of each model, in one table
-// for the choice, `explain`, checks and the manual.
+// The table of models of models: name, requirements, abilities, error and cost of each model, in
+// one table for the choice, `explain`, checks and the manual.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace palpate::scenario {
 // In the order of cost.
 enum class Model { hertz, layer, mass_spring, coupled_springs, solid };
 
-struct Rung {
+struct ModelTraits {
   enum class Springs { none, independent, coupled };
 
   struct Cost {
@@ -50,25 +50,25 @@ struct Rung {
   [[nodiscard]] constexpr bool coupled() const { return springs == Springs::coupled; }
 };
 
-inline constexpr auto ladder = std::to_array<Rung>({
+inline constexpr auto model_table = std::to_array<ModelTraits>({
     {.of = Model::hertz,
      .word = "hertz",
      .meaning = "eq. (1)-(4), no mesh",
-     .springs = Rung::Springs::none,
+     .springs = ModelTraits::Springs::none,
      .own_ratio = true,
      .eq_2 = true,
      .cost = {.once = 1e-6}},
     {.of = Model::layer,
      .word = "layer",
      .meaning = "flat tissue of finite thickness, exact, no mesh",
-     .springs = Rung::Springs::none,
+     .springs = ModelTraits::Springs::none,
      .thickness = true,
      .own_ratio = true,
      .cost = {.once = 0.01, .layered = 0.05}},
     {.of = Model::mass_spring,
      .word = "mass_spring",
      .meaning = "the paper's springs along tetrahedron edges",
-     .springs = Rung::Springs::independent,
+     .springs = ModelTraits::Springs::independent,
      .thickness = true,
      .sides = true,
      .inertia = true,
@@ -78,7 +78,7 @@ inline constexpr auto ladder = std::to_array<Rung>({
     {.of = Model::coupled_springs,
      .word = "coupled_springs",
      .meaning = "the same springs, coupled so that they have the tissue's E and nu",
-     .springs = Rung::Springs::coupled,
+     .springs = ModelTraits::Springs::coupled,
      .volume = tissue::Volume::nodal,
      .thickness = true,
      .sides = true,
@@ -92,28 +92,31 @@ inline constexpr auto ladder = std::to_array<Rung>({
      .word = "solid",
      .meaning = "quadratic tetrahedra of its own with large strains, at rest: depth, edges, "
                 "layers, inclusions",
-     .springs = Rung::Springs::none,
+     .springs = ModelTraits::Springs::none,
      .thickness = true,
      .sides = true,
      .own_ratio = true,
      .solid = true,
      .cost = {.once = 3.0}},
 });
-static_assert(is_complete<Model>(ladder), "the ladder has a row for every model, in their order");
+static_assert(is_complete<Model>(model_table),
+              "the table has a row for every model, in their order");
 
-[[nodiscard]] constexpr const Rung& rung(Model model) { return ladder[as_index(model)]; }
+[[nodiscard]] constexpr const ModelTraits& traits(Model model) {
+  return model_table[as_index(model)];
+}
 
 // The most complete model of any scenario, with which the others are compared.
-inline constexpr const Rung& strongest = rung(Model::coupled_springs);
+inline constexpr const ModelTraits& strongest = traits(Model::coupled_springs);
 
 // The models for any scenario that satisfy `serves`, as part of a sentence: `solver.model = "a"` or
 // `"b"`.
 template <class Serves>
 [[nodiscard]] std::string models_that(const Serves& serves) {
   std::string text;
-  for (const Rung& rung : ladder)
-    if (serves(rung) && !rung.solid)
-      text += (text.empty() ? "`solver.model = \"" : " or `\"") + std::string(rung.word) + "\"`";
+  for (const ModelTraits& traits : model_table)
+    if (serves(traits) && !traits.solid)
+      text += (text.empty() ? "`solver.model = \"" : " or `\"") + std::string(traits.word) + "\"`";
   return text;
 }
 

@@ -1,5 +1,5 @@
 // Chooses the model by its estimated errors at the corners of the box.
-#include "identify/fixed_rung.h"
+#include "identify/fixed_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,17 +44,17 @@ scene::Choice quick_choice(const scenario::Case& one) {
 
 }  // namespace
 
-scenario::Case FixedRung::at(std::span<const Unknown> unknowns,
-                             std::span<const double> values) const {
+scenario::Case FixedModel::at(std::span<const Unknown> unknowns,
+                              std::span<const double> values) const {
   scenario::Case other = one;
   set_unknowns(other.scenario, unknowns, values);
   return other;
 }
 
-FixedRung fix_rung(const scenario::Case& one, const Node& document,
-                   std::span<const Unknown> unknowns) {
+FixedModel fix_model(const scenario::Case& one, const Node& document,
+                     std::span<const Unknown> unknowns) {
   const scenario::Scenario& scenario = one.scenario;
-  FixedRung fixed{.one = one};
+  FixedModel fixed{.one = one};
   std::vector<scene::Choice> choices;
   scene::SpecimenShapes shapes;
   std::vector<Problem> wrong;
@@ -78,17 +78,17 @@ FixedRung fix_rung(const scenario::Case& one, const Node& document,
   fixed.given = choices.front().given;
   fixed.model = choices.front().chosen.solver.model;
   double best = std::numeric_limits<double>::infinity();
-  for (const scene::Forecast& rung : choices.front().rungs) {  // cheapest first
+  for (const scene::Forecast& forecast : choices.front().forecasts) {  // cheapest first
     if (fixed.given || best <= scenario.solver.tolerance) break;
     double worst = 0.0;
     for (const scene::Choice& choice : choices)
-      worst = std::max(worst, error_of(choice, rung.model) - choice.waves);
+      worst = std::max(worst, error_of(choice, forecast.model) - choice.waves);
     if (worst >= best) continue;
     best = worst;
-    fixed.model = rung.model;
+    fixed.model = forecast.model;
   }
   for (const scene::Choice& choice : choices) {
-    if (!choice.rungs.empty())
+    if (!choice.forecasts.empty())
       fixed.worst_error = std::max(fixed.worst_error, error_of(choice, fixed.model));
     found.viscosity_matters |= choice.found.viscosity_matters;
     found.inertia_matters |= choice.found.inertia_matters;
@@ -114,8 +114,8 @@ std::optional<double> inertia_of_flow(const scenario::Resolved& scenario) {
 
 std::optional<double> predicted_error(const scenario::Case& fixed) {
   const scene::Choice choice = quick_choice(fixed);
-  const scene::Forecast* rung = choice.taken();
-  return rung == nullptr ? std::nullopt : std::optional(rung->error);
+  const scene::Forecast* forecast = choice.taken();
+  return forecast == nullptr ? std::nullopt : std::optional(forecast->error);
 }
 
 std::optional<double> deep_effect(const scenario::Case& fixed) {

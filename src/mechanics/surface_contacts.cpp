@@ -1,5 +1,5 @@
 // Detection of contacts, their laws and patches, and one pass of the contact equations.
-#include "mechanics/skin_contacts.h"
+#include "mechanics/surface_contacts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,58 +23,59 @@ bool on_deformed(const MovingPart& part) {
 
 }  // namespace
 
-SkinCurvature::SkinCurvature(const MovingPart& part)
+SurfaceCurvature::SurfaceCurvature(const MovingPart& part)
     : part_(&part),
-      skin_(&part.scene->specimen->surface->surface()),
-      stars_(*skin_, part.scene->specimen->surface->neighbours(), curvature_options(*part.scene)),
-      number_of_(skin_->triangles.size(), -1) {
+      outer_surface_(&part.scene->specimen->surface->surface()),
+      stars_(*outer_surface_, part.scene->specimen->surface->neighbours(),
+             curvature_options(*part.scene)),
+      number_of_(outer_surface_->triangles.size(), -1) {
   if (const auto& file = part.scene->of_file) of_file_.emplace(file->surface());
 }
 
 // A place near each corner, within the triangle: at a crease the surface has another curvature on
 // either side.
-SkinCurvature::Corners SkinCurvature::on_file(int triangle) const {
+SurfaceCurvature::Corners SurfaceCurvature::on_file(int triangle) const {
   constexpr double inwards = 0.1;
   const geometry::SmoothSurface& file = *part_->scene->of_file;
-  const auto& numbers = skin_->triangles[as_index(triangle)];
+  const auto& numbers = outer_surface_->triangles[as_index(triangle)];
   Vec3 middle = Vec3::Zero();
-  for (const int number : numbers) middle += skin_->vertices[as_index(number)] / 3.0;
+  for (const int number : numbers) middle += outer_surface_->vertices[as_index(number)] / 3.0;
   Corners corners;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& corner = skin_->vertices[as_index(numbers[i])];
+    const Vec3& corner = outer_surface_->vertices[as_index(numbers[i])];
     const geometry::Near near = of_file_->nearest(corner + inwards * (middle - corner));
     const geometry::SurfacePoint at{near.triangle, near.weights};
     corners[i] = scene::curvature_of_file(file, at, part_->scene->scenario);
     // A coarse file, as a box of twelve triangles, has too few neighbours.
-    if (!corners[i].known()) return stars_.at_corners(*skin_, triangle);
+    if (!corners[i].known()) return stars_.at_corners(*outer_surface_, triangle);
     corners[i].curvature = geometry::turned_to(corners[i].curvature, file.normal(at));
   }
   return corners;
 }
 
-const SkinCurvature::Corners& SkinCurvature::at_rest(int triangle) {
+const SurfaceCurvature::Corners& SurfaceCurvature::at_rest(int triangle) {
   int& number = number_of_[as_index(triangle)];
   if (number < 0) {
     number = static_cast<int>(known_.size());
-    known_.push_back(of_file_ ? on_file(triangle) : stars_.at_corners(*skin_, triangle));
+    known_.push_back(of_file_ ? on_file(triangle) : stars_.at_corners(*outer_surface_, triangle));
   }
   return known_[as_index(number)];
 }
 
-void SkinCurvature::make_room() {
-  known_.reserve(skin_->triangles.size());
+void SurfaceCurvature::make_room() {
+  known_.reserve(outer_surface_->triangles.size());
   if (on_deformed(*part_))
-    shape_ = *skin_;
+    shape_ = *outer_surface_;
   else if (of_file_)
-    for (std::size_t triangle = 0; triangle < skin_->triangles.size(); ++triangle)
+    for (std::size_t triangle = 0; triangle < outer_surface_->triangles.size(); ++triangle)
       (void)at_rest(static_cast<int>(triangle));
 }
 
-std::optional<std::string> SkinCurvature::find(const geometry::SurfacePoint& at, bool& one_sided,
-                                               geometry::Curvature& here) {
+std::optional<std::string> SurfaceCurvature::find(const geometry::SurfacePoint& at, bool& one_sided,
+                                                  geometry::Curvature& here) {
   Corners corners;
   if (on_deformed(*part_)) {
-    shape_ = *skin_;
+    shape_ = *outer_surface_;
     for (std::size_t v = 0; v < shape_.vertices.size(); ++v)
       if (const int node = part_->nodes[v]; node >= 0)
         shape_.vertices[v] += part_->state.displacement.segment<3>(3 * node);
@@ -108,7 +109,7 @@ void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count) {
   matrix.topLeftCorner(count, count).setZero();
 }
 
-SkinContacts::SkinContacts(const MovingPart& part)
+SurfaceContacts::SurfaceContacts(const MovingPart& part)
     : scene_(part.scene),
       part_(&part),
       surface_(&*part.scene->specimen->surface),
@@ -117,7 +118,7 @@ SkinContacts::SkinContacts(const MovingPart& part)
       spacing_(*surface_),
       curvature_(part) {}
 
-void SkinContacts::make_room(Touch& touch) {
+void SurfaceContacts::make_room(Touch& touch) {
   const std::size_t count = most_contacts();
   const std::size_t vertices = surface_->surface().vertices.size();
   const std::size_t nodes = std::min(contact::most_shares, vertices);
@@ -139,9 +140,9 @@ void SkinContacts::make_room(Touch& touch) {
   clear_corner(compliance_, static_cast<Eigen::Index>(count));
 }
 
-KeptList<SphereContact>& SkinContacts::detect(const Vec3& finger,
-                                              const integrate::Vector* displacement,
-                                              double beyond) {
+KeptList<SphereContact>& SurfaceContacts::detect(const Vec3& finger,
+                                                 const integrate::Vector* displacement,
+                                                 double beyond) {
   moved_.clear();
   if (displacement != nullptr) {
     for (const int node : part_->nodes)
@@ -153,22 +154,22 @@ KeptList<SphereContact>& SkinContacts::detect(const Vec3& finger,
   found_.clear();
   for (std::size_t i = 0; i < scene_->finger.centres.size(); ++i) {
     detector_.find(finger + scene_->finger.centres[i], reach, moved_, feet_);
-    for (const auto& foot : feet_) {
+    for (const auto& closest_point : feet_) {
       SphereContact& contact = found_.add();
       contact.sphere = static_cast<int>(i);
-      contact.patch.at = foot.at;
-      contact.patch.position = foot.position;
-      contact.patch.normal = foot.normal;
-      contact.approach = radius - foot.height;
-      contact.on_crease = foot.on_crease;
-      contact.patch.beyond = foot.beyond;
-      contact.patch.turned = foot.turned;
+      contact.patch.at = closest_point.at;
+      contact.patch.position = closest_point.position;
+      contact.patch.normal = closest_point.normal;
+      contact.approach = radius - closest_point.height;
+      contact.on_crease = closest_point.on_crease;
+      contact.patch.beyond = closest_point.beyond;
+      contact.patch.turned = closest_point.turned;
     }
   }
   return found_;
 }
 
-std::optional<std::string> SkinContacts::give_law(SphereContact& contact) {
+std::optional<std::string> SurfaceContacts::give_law(SphereContact& contact) {
   geometry::Curvature here;
   if (auto wrong = curvature_.find(contact.patch.at, contact.one_sided, here)) return wrong;
   if (contact.patch.turned > 0.0) {
@@ -198,7 +199,7 @@ std::optional<std::string> SkinContacts::give_law(SphereContact& contact) {
 }
 
 // Takes depth (first guess), compliance and stretch from the sphere's nearest previous contact.
-void SkinContacts::carry_on(const Touch& before, SphereContact& contact) const {
+void SurfaceContacts::carry_on(const Touch& before, SphereContact& contact) const {
   contact.depth = std::max(0.0, contact.approach);
   double nearest = scene_->finger.sphere_radius;
   for (const SphereContact& old : before.contacts) {
@@ -212,14 +213,14 @@ void SkinContacts::carry_on(const Touch& before, SphereContact& contact) const {
   }
 }
 
-void SkinContacts::guess_depth(KeptList<SphereContact>& contacts) {
+void SurfaceContacts::guess_depth(KeptList<SphereContact>& contacts) {
   if (contacts.size() != 1) return;
   SphereContact& contact = contacts.front();
   const auto depth = contact::penetration(contact.law.point, contact.approach, contact.compliance);
   if (depth && *depth > 0.0) contact.depth = *depth;
 }
 
-void SkinContacts::shape_patches(KeptList<SphereContact>& contacts) {
+void SurfaceContacts::shape_patches(KeptList<SphereContact>& contacts) {
   for (SphereContact& contact : contacts) {
     const auto [a, b] = contact.law.semi_axes(contact.depth);
     contact.patch.a = a;
@@ -231,7 +232,7 @@ void SkinContacts::shape_patches(KeptList<SphereContact>& contacts) {
 }
 
 // Loads only the corner with the largest weight of the triangle under the contact.
-void SkinContacts::load_nearest_node(SphereContact& contact) const {
+void SurfaceContacts::load_nearest_node(SphereContact& contact) const {
   const auto& weights = contact.patch.at.weights;
   const auto most = std::max_element(weights.begin(), weights.end()) - weights.begin();
   const auto& corners = surface_->surface().triangles[as_index(contact.patch.at.triangle)];
@@ -240,19 +241,19 @@ void SkinContacts::load_nearest_node(SphereContact& contact) const {
 }
 
 // The approach of the sphere, minus the mean displacement under its patch, to the surface at rest.
-void SkinContacts::approach_moved_skin(const Vec3& finger, SphereContact& contact) const {
+void SurfaceContacts::approach_moved_surface(const Vec3& finger, SphereContact& contact) const {
   Vec3 mean = Vec3::Zero();
   for (std::size_t k = 0; k < contact.load.vertices.size(); ++k)
     mean += contact.load.shares[k] * moved_[as_index(contact.load.vertices[k])];
   const Vec3 centre = finger + scene_->finger.centres[as_index(contact.sphere)] - mean;
-  const auto foot = surface_->foot(
+  const auto closest_point = surface_->closest_point(
       centre, {.triangle = contact.patch.at.triangle, .weights = contact.patch.at.weights});
-  contact.approach = scene_->finger.sphere_radius - foot.height;
+  contact.approach = scene_->finger.sphere_radius - closest_point.height;
 }
 
 // Contacts at the same place share its force, without a jump as they come together: `part` is
 // 1 / (1 + sum_j (1 - 2 s_ij / max(a_i, a_j))^2).              docs/theory.md, below [contacts]
-void SkinContacts::share_places(KeptList<SphereContact>& contacts) {
+void SurfaceContacts::share_places(KeptList<SphereContact>& contacts) {
   parts_.assign(contacts.size(), 1.0);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     for (std::size_t j = 0; j < contacts.size(); ++j) {
@@ -269,21 +270,21 @@ void SkinContacts::share_places(KeptList<SphereContact>& contacts) {
 
 // The width depends on the finger's position alone. If it depended on the force, loading and
 // reading would not be transposes of each other, and the contact could feed energy into the motion.
-void SkinContacts::spread_wide(SphereContact& contact) {
+void SurfaceContacts::spread_wide(SphereContact& contact) {
   const auto axes = contact.law.semi_axes(std::max(0.0, contact.approach));
   spreader_.spread(contact::wide_patch(contact.patch, axes, spacing_.at(contact.patch)),
                    contact.wide);
 }
 
 // Sets patches, approaches and first guesses of the depths, and clears the compliance.
-void SkinContacts::begin_pass(Touch& touch) {
+void SurfaceContacts::begin_pass(Touch& touch) {
   KeptList<SphereContact>& contacts = touch.contacts;
   shape_patches(contacts);
   share_places(contacts);
   approaches_.clear();
   depths_.clear();
   for (SphereContact& contact : contacts) {
-    if (!moved_.empty()) approach_moved_skin(touch.finger, contact);
+    if (!moved_.empty()) approach_moved_surface(touch.finger, contact);
     approaches_.push_back(contact.approach);
     depths_.push_back(contact.depth);
   }
@@ -292,8 +293,9 @@ void SkinContacts::begin_pass(Touch& touch) {
 
 // Sets depths and forces; `part_of_way` is a share of the change of depth. Returns the largest
 // change of a contact radius (m) for the whole change, or nothing without a solution.
-std::optional<double> SkinContacts::balance(KeptList<SphereContact>& contacts,
-                                            const Eigen::MatrixXd& compliance, double part_of_way) {
+std::optional<double> SurfaceContacts::balance(KeptList<SphereContact>& contacts,
+                                               const Eigen::MatrixXd& compliance,
+                                               double part_of_way) {
   const auto size = static_cast<Eigen::Index>(contacts.size());
   laws_.clear();
   for (const SphereContact& contact : contacts) laws_.push_back(contact.law.point);

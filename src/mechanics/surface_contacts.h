@@ -17,14 +17,14 @@
 namespace palpate::mechanics {
 
 // The surface's curvature at a point, at rest or as the mesh deforms it.
-class SkinCurvature {
+class SurfaceCurvature {
  public:
   // The part must outlive this.
-  explicit SkinCurvature(const MovingPart& part);
+  explicit SurfaceCurvature(const MovingPart& part);
 
   // Sets `here` (1/m) to the curvature at a point: of the mesh's surface or, for a surface file, of
   // its triangles where they suffice, which a mesh may have coarsened. With `contact.curvature_on =
-  // "deformed"` it is that of the displaced skin. Sets `one_sided` if its estimate is
+  // "deformed"` it is that of the displaced surface. Sets `one_sided` if its estimate is
   // StarStatus::one_sided. Returns a sentence if it cannot be estimated.
   [[nodiscard]] std::optional<std::string> find(const geometry::SurfacePoint& at, bool& one_sided,
                                                 geometry::Curvature& here);
@@ -36,7 +36,7 @@ class SkinCurvature {
   [[nodiscard]] Corners on_file(int triangle) const;
 
   const MovingPart* part_;
-  const geometry::Surface* skin_;
+  const geometry::Surface* outer_surface_;
   geometry::CurvatureStars stars_;
   std::vector<int> number_of_;                // per triangle: index into known_; -1: not computed
   std::vector<Corners> known_;                // at rest
@@ -50,12 +50,12 @@ class SkinCurvature {
 // Sets the first `count` rows and columns to 0; allocates only if the matrix is smaller.
 void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count);
 
-class SkinContacts {
+class SurfaceContacts {
  public:
   static constexpr int most_passes = 100;
 
   // The part must outlive this.
-  explicit SkinContacts(const MovingPart& part);
+  explicit SurfaceContacts(const MovingPart& part);
 
   // Finds the places of the surface that lie in a sphere of the finger at `finger` (m), or are less
   // than `beyond` (m) away from it: on the surface under `displacement` (m), or at rest if that is
@@ -69,7 +69,8 @@ class SkinContacts {
   // or the contact law does not apply.
   template <class Solve>
   [[nodiscard]] std::optional<std::string> find(const Vec3& finger, Touch& touch,
-                                                const Solve& solve, BodySinking* beyond = nullptr);
+                                                const Solve& solve,
+                                                BodySurfaceDisplacement* beyond = nullptr);
 
   // Solves [contacts] and recomputes the patches until their radii do not change,
   // or only once for `passes` = 1. complete(approaches, compliance) fills the compliance (m/N),
@@ -95,7 +96,7 @@ class SkinContacts {
   void shape_patches(KeptList<SphereContact>& contacts);
   void share_places(KeptList<SphereContact>& contacts);
   void load_nearest_node(SphereContact& contact) const;
-  void approach_moved_skin(const Vec3& finger, SphereContact& contact) const;
+  void approach_moved_surface(const Vec3& finger, SphereContact& contact) const;
   void begin_pass(Touch& touch);
   [[nodiscard]] std::optional<double> balance(KeptList<SphereContact>& contacts,
                                               const Eigen::MatrixXd& compliance,
@@ -106,10 +107,10 @@ class SkinContacts {
   const geometry::SmoothSurface* surface_;
   contact::Detector detector_;
   contact::Spreader spreader_;
-  contact::SkinSpacing spacing_;
-  SkinCurvature curvature_;
+  contact::SurfaceSpacing spacing_;
+  SurfaceCurvature curvature_;
   std::vector<Vec3> moved_;  // m, displacement of every vertex; empty at rest
-  std::vector<geometry::SmoothSurface::Foot> feet_;
+  std::vector<geometry::SmoothSurface::ClosestPoint> feet_;
   KeptList<SphereContact> found_;
   // One per contact, while the contact equations are solved:
   std::vector<contact::PointLaw> laws_;
@@ -120,8 +121,9 @@ class SkinContacts {
 };
 
 template <class Solve>
-std::optional<std::string> SkinContacts::find(const Vec3& finger, Touch& touch, const Solve& solve,
-                                              BodySinking* beyond) {
+std::optional<std::string> SurfaceContacts::find(const Vec3& finger, Touch& touch,
+                                                 const Solve& solve,
+                                                 BodySurfaceDisplacement* beyond) {
   for (SphereContact& contact : found_) {
     if (auto wrong = give_law(contact)) return wrong;
     carry_on(touch, contact);
@@ -136,8 +138,8 @@ std::optional<std::string> SkinContacts::find(const Vec3& finger, Touch& touch, 
 }
 
 template <class Complete>
-std::optional<std::string> SkinContacts::settle(Touch& touch, const Complete& complete,
-                                                int passes) {
+std::optional<std::string> SurfaceContacts::settle(Touch& touch, const Complete& complete,
+                                                   int passes) {
   const double settled = 1e-12 * scene_->finger.sphere_radius;
   // Each pass takes this part of the way to the depths for the radii of the pass before: less after
   // a pass that did not come nearer.

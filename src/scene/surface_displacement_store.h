@@ -18,17 +18,17 @@ namespace palpate::scene {
 // in m/N.                                                               docs/theory.md [energy]
 struct SunkPlace {
   static constexpr std::size_t radii = 4;
-  std::array<double, radii> sinking{};         // 1/m, s + e
-  std::array<double, radii> error{};           // 1/m, e
-  std::array<double, radii> doubt{};           // 1/m
-  std::array<Eigen::Matrix3d, radii> shear{};  // 1/m, under tangential loads
-  Vec3 normal = Vec3::Zero();                  // of the patch
-  Eigen::VectorXd rest;                        // 1/m, w for the third radius
-  double solution_error = 0.0;                 // SymmetricSolver::error() of these values
+  std::array<double, radii> surface_displacement{};  // 1/m, s + e
+  std::array<double, radii> error{};                 // 1/m, e
+  std::array<double, radii> doubt{};                 // 1/m
+  std::array<Eigen::Matrix3d, radii> shear{};        // 1/m, under tangential loads
+  Vec3 normal = Vec3::Zero();                        // of the patch
+  Eigen::VectorXd rest;                              // 1/m, w for the third radius
+  double solution_error = 0.0;                       // SymmetricSolver::error() of these values
 };
 
 // Thread-safe. A place has the same bits whoever computed it.
-class SinkingStore {
+class SurfaceDisplacementStore {
  public:
   // The place of the body with this key at a vertex of its surface (-1: at the first contact),
   // under a patch with this normal; nothing if it is not kept.

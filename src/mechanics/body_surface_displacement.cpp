@@ -1,5 +1,5 @@
 // Interpolation over radii and places.
-#include "mechanics/body_sinking.h"
+#include "mechanics/body_surface_displacement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +17,22 @@ namespace {
 constexpr double widest = 1.4;
 constexpr double stated = 1e-9;  // weights below it count as none
 
-// The largest part of s, and of the half-space's sinking, by which e corrects s.
+// The largest part of s, and of the half-space's surface displacement, by which e corrects s.
 constexpr double most_corrected = 0.75;
 constexpr double least_corrected = 0.02;
 
 // s + e, m/N. Where e is larger than s the mesh is too coarse, and the correction is limited.
-// `known` is the part of the half-space's sinking that e may correct, m/N.
+// `known` is the part of the half-space's surface displacement that e may correct, m/N.
 double corrected(const BeyondHalfSpace& beyond, double known) {
-  return beyond.sinking + std::min(beyond.error, most_corrected * std::abs(beyond.sinking) + known);
+  return beyond.surface_displacement +
+         std::min(beyond.error, most_corrected * std::abs(beyond.surface_displacement) + known);
 }
 
 }  // namespace
 
-BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
-                         std::span<const char> held, double deepest)
+BodySurfaceDisplacement::BodySurfaceDisplacement(const scene::Scene& scene,
+                                                 const tissue::Part& part,
+                                                 std::span<const char> held, double deepest)
     : scene_(&scene),
       part_(&part),
       held_(held.begin(), held.end()),
@@ -46,12 +48,13 @@ BodySinking::BodySinking(const scene::Scene& scene, const tissue::Part& part,
             scene.specimen->base == tissue::Base::bonded),
       first_(scene::first_touch(scene).at) {
   // Between regions a vertex belongs to the tissue of the triangle that is asked for first.
-  if (scene.sinkings != nullptr && !scene.scenario.solver.rings && scene.scenario.regions.empty())
+  if (scene.surface_displacements != nullptr && !scene.scenario.solver.rings &&
+      scene.scenario.regions.empty())
     key_ = key();
 }
 
 // All that a Place in one tissue depends on, except for its vertex and normal.
-std::string BodySinking::key() const {
+std::string BodySurfaceDisplacement::key() const {
   const scenario::Resolved& scenario = scene_->scenario;
   std::string key = scene::shape_key(scenario);
   if (scene::refines(scenario)) key += scene::refining_key(scenario);
@@ -67,7 +70,7 @@ std::string BodySinking::key() const {
   return key;
 }
 
-void BodySinking::make_couplings() {
+void BodySurfaceDisplacement::make_couplings() {
   if (coupling_) return;
   coupling_.emplace(*scene_, *part_, held_, modulus_);
   if (!scene_->layer) return;
@@ -84,15 +87,16 @@ void BodySinking::make_couplings() {
 }
 
 // The presses of find_shear().
-std::array<EnergyCoupling::Press, 3> BodySinking::shear_presses(const contact::Patch& patch) {
+std::array<EnergyCoupling::Press, 3> BodySurfaceDisplacement::shear_presses(
+    const contact::Patch& patch) {
   const Vec3 x = patch.axis;
   const Vec3 y = patch.normal.cross(x);
   return {{{patch, x}, {patch, y}, {patch, (x + y).normalized(), true}}};
 }
 
 // From loads along two axes and between them. The half-space's own is 3 q / (20 a), q = (2 - nu)/G.
-Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch,
-                                        std::span<const BeyondHalfSpace, 3> beyond) const {
+Eigen::Matrix3d BodySurfaceDisplacement::find_shear(
+    const contact::Patch& patch, std::span<const BeyondHalfSpace, 3> beyond) const {
   const auto along = [&](std::size_t load) {
     return corrected(beyond[load], least_corrected * 0.15 * shear_compliance_ / patch.a);
   };
@@ -105,7 +109,7 @@ Eigen::Matrix3d BodySinking::find_shear(const contact::Patch& patch,
          of_both * (x * y.transpose() + y * x.transpose());
 }
 
-BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
+BodySurfaceDisplacement::Place BodySurfaceDisplacement::evaluate(const contact::Patch& like) {
   make_couplings();
   Place place;
   place.normal = like.normal;
@@ -129,13 +133,15 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
     BeyondHalfSpace& beyond = all[k];
     if (sliding_) {
       const BeyondHalfSpace& slides = sliding[k];
-      beyond.sinking = 0.5 * (beyond.sinking - slides.sinking);
+      beyond.surface_displacement =
+          0.5 * (beyond.surface_displacement - slides.surface_displacement);
       beyond.error = 0.5 * std::abs(beyond.error - slides.error);
       beyond.doubt = 0.5 * std::abs(beyond.doubt - slides.doubt);
-      place.sinking[k] = beyond.sinking;
+      place.surface_displacement[k] = beyond.surface_displacement;
     } else {
-      // 3/(5 E' a) is the half-space's own sinking, docs/theory.md [energy].
-      place.sinking[k] = corrected(beyond, least_corrected * 0.6 / (plane_modulus_ * patch.a));
+      // 3/(5 E' a) is the half-space's own surface displacement, docs/theory.md [energy].
+      place.surface_displacement[k] =
+          corrected(beyond, least_corrected * 0.6 / (plane_modulus_ * patch.a));
     }
     place.error[k] = beyond.error;
     place.doubt[k] = beyond.doubt;
@@ -156,18 +162,20 @@ BodySinking::Place BodySinking::evaluate(const contact::Patch& like) {
 }
 
 // From the store, or evaluated.
-BodySinking::Place BodySinking::place_at(const contact::Patch& like, int vertex) {
+BodySurfaceDisplacement::Place BodySurfaceDisplacement::place_at(const contact::Patch& like,
+                                                                 int vertex) {
   std::optional<Place> place;
-  if (!key_.empty()) place = scene_->sinkings->find(key_, vertex, like.normal);
+  if (!key_.empty()) place = scene_->surface_displacements->find(key_, vertex, like.normal);
   if (!place) {
     place = evaluate(like);
-    if (!key_.empty()) scene_->sinkings->keep(key_, vertex, *place);
+    if (!key_.empty()) scene_->surface_displacements->keep(key_, vertex, *place);
   }
   solution_error_ = std::max(solution_error_, place->solution_error);
   return std::move(*place);
 }
 
-const BodySinking::Place& BodySinking::at_vertex(const contact::Patch& patch, std::size_t corner) {
+const BodySurfaceDisplacement::Place& BodySurfaceDisplacement::at_vertex(
+    const contact::Patch& patch, std::size_t corner) {
   const int triangle = patch.at.triangle;
   const int vertex = surface_->surface().triangles[as_index(triangle)][corner];
   const Vec3& normal = surface_->corner_normal(triangle, corner);
@@ -183,7 +191,7 @@ const BodySinking::Place& BodySinking::at_vertex(const contact::Patch& patch, st
 
 // Fills shares_: linear weights of the corners or, in the triangle of the first touch, of that
 // place and two corners.
-void BodySinking::spread(const contact::Patch& patch) {
+void BodySurfaceDisplacement::spread(const contact::Patch& patch) {
   shares_.fill({});
   std::array<double, 3> weights{patch.at.weights[0], patch.at.weights[1], patch.at.weights[2]};
   if (patch.at.triangle == first_.triangle) {
@@ -214,7 +222,7 @@ void BodySinking::spread(const contact::Patch& patch) {
 // `product` is Lagrange's polynomial of that radius, and `slope` its derivative. Outside of the
 // table a value goes on with the slope at its end, which decays: product + slope * (1 - fading).
 template <class Add>
-void BodySinking::at_radius(const contact::Patch& patch, const Add& add) {
+void BodySurfaceDisplacement::at_radius(const contact::Patch& patch, const Add& add) {
   const double ratio = patch.radius() / largest_;
   const double x = std::min(ratio, steps.back());
   const double fading = std::exp(x - ratio);
@@ -243,20 +251,21 @@ void BodySinking::at_radius(const contact::Patch& patch, const Add& add) {
   add_side(beyond, patch.turned);
 }
 
-BodySinking::Value BodySinking::at(const contact::Patch& patch) {
+BodySurfaceDisplacement::Value BodySurfaceDisplacement::at(const contact::Patch& patch) {
   Value value;
   at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
                        double slope, double fading) {
-    const double sinking = place.sinking[k] / modulus_;
-    value.sinking += weight * (product + slope * (1.0 - fading)) * sinking;
-    value.slope += weight * slope * fading / largest_ * sinking;
+    const double surface_displacement = place.surface_displacement[k] / modulus_;
+    value.surface_displacement +=
+        weight * (product + slope * (1.0 - fading)) * surface_displacement;
+    value.slope += weight * slope * fading / largest_ * surface_displacement;
     value.error += weight * product * place.error[k] / modulus_;
     value.doubt += weight * product * place.doubt[k] / modulus_;
   });
   return value;
 }
 
-Eigen::Matrix3d BodySinking::shear(const contact::Patch& patch) {
+Eigen::Matrix3d BodySurfaceDisplacement::shear(const contact::Patch& patch) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   if (!rubs_) return sum;
   at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
@@ -271,7 +280,7 @@ Eigen::Matrix3d BodySinking::shear(const contact::Patch& patch) {
   return sum;
 }
 
-std::vector<double> BodySinking::errors(const contact::Patch& patch) {
+std::vector<double> BodySurfaceDisplacement::errors(const contact::Patch& patch) {
   make_couplings();
   std::vector<double> errors = coupling_->beyond(patch, -patch.normal).errors;
   if (sliding_) {
@@ -283,8 +292,8 @@ std::vector<double> BodySinking::errors(const contact::Patch& patch) {
   return errors;
 }
 
-double BodySinking::rest(const Vec3& normal, const contact::Spread& read,
-                         std::span<const int> nodes, const contact::Patch& pressed) {
+double BodySurfaceDisplacement::rest(const Vec3& normal, const contact::Spread& read,
+                                     std::span<const int> nodes, const contact::Patch& pressed) {
   spread(pressed);
   double sum = 0.0;
   for (const auto& [place, weight] : shares_) {
@@ -296,7 +305,7 @@ double BodySinking::rest(const Vec3& normal, const contact::Spread& read,
   return sum / modulus_;
 }
 
-void BodySinking::make_ready(double reach) {
+void BodySurfaceDisplacement::make_ready(double reach) {
   const Vec3 middle = surface_->position(first_);
   const auto& triangles = surface_->surface().triangles;
   contact::Patch patch;
