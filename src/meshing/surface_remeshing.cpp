@@ -238,7 +238,6 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   if (sharp && given < large) return std::nullopt;
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
-  const bool no_needles = looser <= 1.0 && !sharp;
   const geometry::BoxTree original(surface);
   const std::vector<double> asked(surface.vertices.size(), spacing);
   // Nothing where the triangles are no fewer than `most`, which ends the tries.
@@ -252,7 +251,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
       double distance = farthest(*made, original, limit, wrong);
       distance = std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, wrong));
       if (by_place) add_crossings(*made, wrong);
-      if (wrong.empty() && !(no_needles && count_needles(*made) > 0) &&
+      if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
           std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
           closed(*made))
         return Remeshed{std::move(*made), distance};
@@ -278,7 +277,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   for (int i = 0; i < 8; ++i) {
     // Below half of what was asked for, a surface with thin limbs has many more triangles than it
     // needs where it has none.
-    if (i == 3 && no_needles)
+    if (i == 3 && looser <= 1.0)
       if (auto found = by_place()) return found;
     if (auto ended = tried(attempt, false, most)) return std::move(*ended);
   }
