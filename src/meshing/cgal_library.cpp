@@ -215,11 +215,18 @@ namespace processing = CGAL::Polygon_mesh_processing;
 
 Vec3 place_of(const Point& point) { return {point.x(), point.y(), point.z()}; }
 
+using Parts = Mesh::Property_map<Mesh::Face_index, std::size_t>;
+
+// The connected part of each face, and the number of parts.
+std::pair<Parts, std::size_t> numbered_parts(Mesh& mesh) {
+  const Parts parts = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:part", 0).first;
+  return {parts, processing::connected_components(mesh, parts)};
+}
+
 // Removes connected parts that are open and have less than a thousandth of the area.
 int remove_fragments(Mesh& mesh) {
   constexpr double least_area = 1e-3;
-  const auto parts = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:part", 0).first;
-  const std::size_t count = processing::connected_components(mesh, parts);
+  const auto [parts, count] = numbered_parts(mesh);
   std::vector<double> areas(count, 0.0);
   std::vector<char> open(count, 0);
   double total = 0.0;
@@ -257,11 +264,14 @@ Mending::Hole fill(Mesh& mesh, Mesh::Halfedge_index border) {
   return hole;
 }
 
-std::set<Mesh::Face_index> crossing(const Mesh& mesh) {
+// Faces that cut others of the same part: of parts that cut each other one is chosen.
+std::set<Mesh::Face_index> crossing(Mesh& mesh) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   processing::self_intersections(mesh, std::back_inserter(pairs));
+  const Parts parts = numbered_parts(mesh).first;
   std::set<Mesh::Face_index> faces;
-  for (const auto& [one, other] : pairs) faces.insert({one, other});
+  for (const auto& [one, other] : pairs)
+    if (parts[one] == parts[other]) faces.insert({one, other});
   return faces;
 }
 

@@ -23,6 +23,7 @@ constexpr double crease_degrees = 40.0;                            // as for nor
 constexpr double most_volume = 0.005;                              // relative change
 constexpr double needle_altitude = 1.0 / 15.0;                     // altitude over longest edge
 constexpr double shorter = 0.75;                                   // the next spacing to try
+constexpr double least_growth = 1.5;                               // of triangles by that
 constexpr double shorter_there = 0.5;                              // the same of some vertices
 
 // Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
@@ -237,29 +238,48 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   if (sharp && given < large) return std::nullopt;
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
-  const bool no_needles = looser <= 1.0 && !sharp;
   const geometry::BoxTree original(surface);
-  Attempt attempt{surface, original, std::vector<double>(surface.vertices.size(), spacing),
-                  !sharp && count_needles(surface) > 0};
-  const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
-  const int most_tries = sharp ? 16 : 8;
-  for (int i = 0; i < most_tries; ++i) {
+  const std::vector<double> asked(surface.vertices.size(), spacing);
+  // Nothing where the triangles are no fewer than `most`, which ends the tries.
+  const auto tried = [&](Attempt& attempt, bool by_place,
+                         std::size_t most) -> std::optional<std::optional<Remeshed>> {
     std::vector<Vec3> wrong;
-    if (std::optional<Surface> tried = attempt.made(); tried && !tried->triangles.empty()) {
-      flatten_sides(surface, std::ranges::max(attempt.spacing), *tried);
-      if (tried->triangles.size() >= most) return std::nullopt;
-      double distance = farthest(*tried, original, limit, wrong);
-      distance = std::max(distance, farthest(surface, geometry::BoxTree(*tried), limit, wrong));
-      if (sharp) add_crossings(*tried, wrong);
-      if (wrong.empty() && !(no_needles && count_needles(*tried) > 0) &&
-          std::abs(geometry::enclosed(*tried).volume / volume - 1.0) <= looser * most_volume &&
-          closed(*tried))
-        return Remeshed{std::move(*tried), distance};
+    if (std::optional<Surface> made = attempt.made(); made && !made->triangles.empty()) {
+      flatten_sides(surface, std::ranges::max(attempt.spacing), *made);
+      const std::size_t count = made->triangles.size();
+      if (count >= most) return std::optional<Remeshed>();
+      double distance = farthest(*made, original, limit, wrong);
+      distance = std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, wrong));
+      if (by_place) add_crossings(*made, wrong);
+      if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
+          std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
+          closed(*made))
+        return Remeshed{std::move(*made), distance};
+      // The next try would have too many, and take longer than all before.
+      if (!by_place && least_growth * static_cast<double>(count) >= static_cast<double>(most))
+        return std::optional<Remeshed>();
     }
-    if (sharp && !wrong.empty())
+    if (by_place && !wrong.empty())
       attempt.shorten(wrong);
     else
       attempt.shorten();
+    return std::nullopt;
+  };
+  const auto by_place = [&]() -> std::optional<Remeshed> {
+    Attempt attempt{surface, original, asked};
+    for (int i = 0; i < 16; ++i)
+      if (auto ended = tried(attempt, true, given)) return std::move(*ended);
+    return std::nullopt;
+  };
+  if (sharp) return by_place();
+  Attempt attempt{surface, original, asked, count_needles(surface) > 0};
+  const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
+  for (int i = 0; i < 8; ++i) {
+    // Below half of what was asked for, a surface with thin limbs has many more triangles than it
+    // needs where it has none.
+    if (i == 3 && looser <= 1.0)
+      if (auto found = by_place()) return found;
+    if (auto ended = tried(attempt, false, most)) return std::move(*ended);
   }
   return std::nullopt;
 }

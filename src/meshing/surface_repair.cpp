@@ -232,8 +232,7 @@ namespace {
 
 using cgal_library::Mending;
 
-constexpr double most_missing = 0.02;  // of the area, that holes or crossing triangles may have
-constexpr double speck = 1e-3;         // of the volume, below which a part is excluded
+constexpr double speck = 1e-3;  // of the volume, below which a part is excluded
 constexpr ChildLimits mending_limits{120.0, 8.0 * 1024 * 1024 * 1024};  // s, bytes
 
 // Vertices within a millionth of the size become one: the rounding of files in single precision.
@@ -387,6 +386,13 @@ void add_part(geometry::Surface& surface, const geometry::Surface& part, bool tu
   }
 }
 
+// Whether a triangle before the first of the second part cuts or touches one of that part.
+bool cut_each_other(const geometry::Surface& both, std::size_t second) {
+  return std::ranges::any_of(cgal_library::self_intersections(both), [&](const auto& pair) {
+    return as_index(pair[0]) < second && as_index(pair[1]) >= second;
+  });
+}
+
 // Leaves one part and, where none is asked for, the cavities in it; tells what there was besides.
 std::string choose_part(geometry::Surface& surface, const std::string& name,
                         const std::optional<int>& wanted) {
@@ -412,15 +418,18 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
       continue;
     }
     // The parts go by falling volume, so that a cavity comes before what lies in it.
-    const bool cavity = !wanted && geometry::encloses(taken, other.vertices.front());
+    geometry::Surface both = taken;
+    add_part(both, other, volumes[as_index(i - 1)] > 0.0);
+    const bool cuts = cut_each_other(both, taken.triangles.size());
+    const bool cavity = !wanted && !cuts && geometry::encloses(taken, other.vertices.front());
     if (cavity) {
-      add_part(taken, other, volumes[as_index(i - 1)] > 0.0);
+      taken = std::move(both);
       ++hollows;
     }
     std::string& list = cavity ? cavities : others;
     list += (list.empty() ? "" : ", ") + std::string("part ") + std::to_string(i) +
             near_text(geometry::enclosed(other).centroid) + " with " + percent_text(share) +
-            " of its volume";
+            " of its volume" + (cuts ? ", which cuts or touches it" : "");
   }
   surface = std::move(taken);
   std::string text = "part " + std::to_string(own) + " of " + std::to_string(count) + " is taken";
@@ -464,18 +473,27 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
   if (!result.good()) give_up();
   Mending made = unpacked_mending(result.output);
   if (made.surface.triangles.empty() || !(made.area > 0.0)) give_up();
-  if (!made.holes.empty() && missing(made) > most_missing * made.area) {
+  const auto more = [&](double part) {
+    constexpr double limit = 0.5;  // of `repair_up_to`
+    const double needed = std::ceil(100.0 * part) / 100.0;
+    return ", and up to " + percent_text(order.most_missing) +
+           (needed <= limit ? " are mended by themselves; set `repair_up_to = " +
+                                  rounded_text(needed) + "` of `tissue.shape`, or mend it"
+                            : " are mended by themselves; mend it") +
+           " in the program it comes from";
+  };
+  if (!made.holes.empty() && missing(made) > order.most_missing * made.area) {
     const Mending::Hole& hole = largest_hole(made);
     throw MeshError(
         "surface `" + name + "`: is open: " + many(static_cast<int>(made.holes.size()), "hole") +
         " would need " + percent_text(missing(made) / made.area) + " of its area, the largest is " +
         rounded_text(unit::mm.from_si(hole.around), 3) + " mm around" + near_text(hole.place) +
-        ", and up to 2 % are closed by themselves; close it "
-        "in the program it comes from");
+        more(missing(made) / made.area));
   }
-  if (made.crossing > most_missing * made.area)
-    throw MeshError(fault + " (triangles with " + percent_text(made.crossing / made.area) +
-                    " of the area cut others, and up to 2 % are replaced by themselves)");
+  if (made.crossing > order.most_missing * made.area)
+    throw MeshError("surface `" + name + "`: triangles with " +
+                    percent_text(made.crossing / made.area) +
+                    " of its area cut others of the same part" + more(made.crossing / made.area));
   whole.surface = std::move(made.surface);
   const std::string taken = choose_part(whole.surface, name, order.part);
   try {

@@ -29,13 +29,14 @@ struct WholeSurface {
 // What is asked of a surface from a file.
 struct RepairOrder {
   bool repair = true;
+  double most_missing = 0.02;    // of the area, that holes or crossing triangles may have
   std::optional<int> part = {};  // by falling volume, from 1; empty: the only part, or the largest
 };
 
 // The surface itself if it passes check_closed(). Otherwise its vertices within a millionth of its
 // size are joined, doubled triangles removed, sheets that share a vertex parted, all triangles
-// turned one way, holes filled and crossing triangles replaced, if the holes, and the crossing
-// triangles, have at most 2 % of its area. Of several parts one remains, with the
+// turned one way, holes filled and triangles replaced that cross others of the same part, if the
+// holes, and these triangles, have at most a part of its area. Of several parts one remains, with the
 // cavities in it where no part is asked for; parts of less than a thousandth of its volume are
 // removed. Throws MeshError as check_closed() does for what is worse. `name` is that of the surface
 // in messages.

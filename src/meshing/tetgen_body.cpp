@@ -462,8 +462,9 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
     }
     return true;
   };
-  const bool changed = (too_fine(surface, target) || needles > 0) && remesh();
-  if (attempt() || (!changed && remesh() && attempt())) return made;
+  const bool asked = too_fine(surface, target) || needles > 0;
+  if (asked) (void)remesh();
+  if (attempt() || (!asked && remesh() && attempt())) return made;
   made.mesh = meshed({.edge_length = spacing_of(surface)});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);

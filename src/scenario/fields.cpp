@@ -282,9 +282,12 @@ static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
                shape.up);
   visitor.flag({"repair",
                 "Whether small faults are mended, with a note: vertices in one place, doubled "
-                "triangles, sheets that share a vertex, triangles that face inwards, and holes and "
-                "crossing triangles with at most 2 % of the area."},
+                "triangles, sheets that share a vertex, triangles that face inwards, holes, and "
+                "triangles that cross."},
                shape.repair);
+  visitor.number({"repair_up_to",
+                  "Share of the area that holes, or triangles that cross, may have to be mended."},
+                 shape.repair_up_to, {.low = 0, .high = 0.5});
   visitor.count_or("auto",
                    {"part",
                     "Which of several closed parts the body is, by falling volume, filled; `auto`: "

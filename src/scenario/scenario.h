@@ -67,6 +67,7 @@ struct SurfaceFile {
   std::string unit;         // symbol of a length unit
   std::string up = "z";     // the direction of the file's coordinates that points up
   bool repair = true;       // small faults of the surface
+  double repair_up_to = 0.02;  // of its area
   std::optional<int> part;  // of several closed parts; empty: the only one, or the largest
 };
 struct AsMeshed {

@@ -13,6 +13,7 @@
 #include "geometry/half_edges.h"
 #include "meshing/mesh_check.h"
 #include "scenario/direction.h"
+#include "scene/first_touch.h"
 #include "scene/specimen_mesh.h"
 #include "scene/specimen_shape.h"
 
@@ -192,6 +193,52 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
   return outwards;
 }
 
+// The middle of the highest triangle, and of the largest one of a flat top.
+Vec3 top_of(const geometry::Surface& body, double size) {
+  const double rounding = 1e-6 * size;
+  Vec3 top(0.0, 0.0, -HUGE_VAL);
+  double largest = 0.0;
+  for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
+    const auto& [a, b, c] = body.triangles[as_index(t)];
+    const Vec3 middle =
+        (body.vertices[as_index(a)] + body.vertices[as_index(b)] + body.vertices[as_index(c)]) /
+        3.0;
+    const double area = geometry::twice_area(body, t).norm();
+    if (middle.z() < top.z() - rounding || (middle.z() <= top.z() + rounding && area <= largest))
+      continue;
+    top = middle;
+    largest = area;
+  }
+  return top;
+}
+
+// A finger without a place presses the middle of the body's box, or the top of a body that has
+// nothing there, as a ring.
+void leave_empty_middle(scenario::Resolved& scenario, const geometry::SmoothSurface& surface) {
+  const geometry::Surface& body = surface.surface();
+  const Box box = box_of(body.vertices);
+  const Vec3 middle(0.5 * (box.low.x() + box.high.x()), 0.5 * (box.low.y() + box.high.y()),
+                    box.high.z());
+  const auto beside = [&](const std::array<int, 3>& triangle) {
+    const auto side = [&](std::size_t i) {
+      const Vec3 from = body.vertices[as_index(triangle[i])] - middle;
+      const Vec3 to = body.vertices[as_index(triangle[(i + 1) % 3])] - middle;
+      return from.x() * to.y() - from.y() * to.x() >= 0.0;
+    };
+    return side(0) != side(1) || side(1) != side(2);
+  };
+  if (!std::ranges::all_of(body.triangles, beside)) return;
+  const Vec3 centre = Vec3::Zero();
+  try {
+    (void)lowered_onto(surface, middle, {{&centre, 1}, scenario.finger.radius});
+  } catch (const MeshError&) {
+    const Vec3 top = top_of(body, (box.high - box.low).norm());
+    scenario.finger.x = top.x();
+    scenario.finger.y = top.y();
+    scenario.finger.moved = true;
+  }
+}
+
 // The nearest place of a surface without the walls of its cavities.
 geometry::SurfacePoint nearest_outside(const geometry::Surface& surface, const Vec3& place) {
   geometry::SurfacePoint found;
@@ -242,10 +289,19 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
       const Vec3 centre = turn * Vec3(lump->centre[0], lump->centre[1], lump->centre[2]);
       lump->centre = {centre.x(), centre.y(), centre.z()};
     }
-  if (finger.at.size() == 3 && !scenario.uniform()) {
+  if (scenario.uniform()) return;
+  if (finger.at.size() == 3) {
     const Vec3 turned = turn * place;
     finger.x = turned.x();
     finger.y = turned.y();
+  } else if (!finger.x && !finger.y) {
+    if (std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape)) {
+      scenario::Resolved plain = scenario;
+      scenario::refinement(plain.tissue.mesh).refine = false;
+      leave_empty_middle(scenario, shapes.shape(plain, folder).surface);
+    } else if (const auto& surface = shapes.surface(scenario, folder).surface) {
+      leave_empty_middle(scenario, *surface);
+    }
   }
 }
 

@@ -278,7 +278,7 @@ meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& fo
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
   return meshing::whole_surface(
       meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file,
-      {file.repair, file.part});
+      {file.repair, file.repair_up_to, file.part});
 }
 
 meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {

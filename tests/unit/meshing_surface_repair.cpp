@@ -102,7 +102,7 @@ TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   const Surface two = with(body(), body(), Vec3(0.2, 0, 0), 0.5, false);
   const std::string text = told(two, rounding);
   EXPECT_NE(text.find("part 1 of 2 is taken, without part 2 near ("), std::string::npos) << text;
-  const Surface second = whole_surface(two, "paw", {true, 2}).surface;
+  const Surface second = whole_surface(two, "paw", {.part = 2}).surface;
   EXPECT_NEAR(geometry::enclosed(second).volume, 0.125 * geometry::enclosed(body()).volume, 1e-12);
 }
 
@@ -121,9 +121,9 @@ TEST(SurfaceRepair, parts_inside_the_largest_are_cavities) {
         << whole.warning;
     EXPECT_EQ(whole.warning.find("was mended") != std::string::npos, !inwards);
     // Asked for by its number, a part is filled.
-    const Surface filled = whole_surface(hollow, "paw", {true, 1}).surface;
+    const Surface filled = whole_surface(hollow, "paw", {.part = 1}).surface;
     EXPECT_NEAR(geometry::enclosed(filled).volume, volume, 1e-12);
-    const Surface inner = whole_surface(hollow, "paw", {true, 2}).surface;
+    const Surface inner = whole_surface(hollow, "paw", {.part = 2}).surface;
     EXPECT_NEAR(geometry::enclosed(inner).volume, 0.125 * volume, 1e-12);
   }
   const Surface three =
@@ -147,7 +147,7 @@ TEST(SurfaceRepair, what_is_worse_is_refused_with_its_size) {
   Surface doubled = body();
   doubled.triangles.push_back(doubled.triangles[7]);
   EXPECT_NE(refusal(doubled, {.repair = false}).find("have the same vertices"), std::string::npos);
-  EXPECT_NE(refusal(body(), {true, 3}).find("has 1 part, and `part` is 3"), std::string::npos);
+  EXPECT_NE(refusal(body(), {.part = 3}).find("has 1 part, and `part` is 3"), std::string::npos);
   EXPECT_EQ(refusal({{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {{0, 1, 2}}}, {}),
             "surface `paw`: is a flat sheet: all its vertices have the same z; give the whole "
             "surface of a body, around its inside");
