@@ -227,8 +227,9 @@ int check(const Golden& command, const Talk& talk) {
   report_checks(checks, command.options, talk);
   const auto equal = std::count_if(checks.begin(), checks.end(),
                                    [](const compare::Check& one) { return one.equal(); });
-  talk.say(std::to_string(equal) + " of " + std::to_string(checks.size()) +
-           (checks.size() == 1 ? " scenario gives" : " scenarios give") + " their baselines");
+  talk.say(
+      std::to_string(equal) + " of " + std::to_string(checks.size()) +
+      (checks.size() == 1 ? " scenario gives its baseline" : " scenarios give their baselines"));
   return code;
 }
 

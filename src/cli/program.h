@@ -14,9 +14,8 @@ enum Exit {
   exit_different = 3,
   exit_diverged = 4,
   exit_mesh = 5,
-  exit_device = 6,  // a link, or a stop for safety
-  exit_partial =
-      7,  // a sweep with missing, diverged or failed cases; not separately identifiable unknowns
+  exit_device = 6,      // a link, or a stop for safety
+  exit_partial = 7,     // a sweep with missing, diverged or failed cases; inseparable unknowns
   exit_held = 8,        // another process runs the part of a sweep
   exit_resumable = 75,  // interrupted; the same call continues
   exit_interrupted = 130,

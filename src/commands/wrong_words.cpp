@@ -40,8 +40,13 @@ std::vector<std::string> long_names(const Options& options) {
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
-  const auto near = nearest(word, known);
-  return near ? "; did you mean `" + *near + "`?" : "; known: " + joined(known, ", ");
+  // Dashes are alike in all options and are not counted.
+  const std::string dashes(std::min(word.find_first_not_of('-'), word.size()), '-');
+  std::vector<std::string> bare;
+  for (const std::string& one : known)
+    bare.push_back(one.starts_with(dashes) ? one.substr(dashes.size()) : one);
+  const auto near = nearest(word.substr(dashes.size()), bare);
+  return near ? "; did you mean `" + dashes + *near + "`?" : "; known: " + joined(known, ", ");
 }
 
 // `after` are the words behind it.

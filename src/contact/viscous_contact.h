@@ -33,7 +33,7 @@ class ViscousRing {
   [[nodiscard]] std::span<const double> branch_gain() const { return branch_gain_; }
   [[nodiscard]] std::span<const double> mode_keep() const { return mode_keep_; }
 
-  // Advances branches or modes over the given part of a step, 0 to 1; `surface displacement` (m) is
+  // Advances branches or modes over the given part of a step, 0 to 1; `surface_displacement` (m) is
   // the increment of w in that part. Exact for a whole step; for a part the error is of the order
   // dt^3.
   void press(double part, double surface_displacement, std::span<double> branches) const;

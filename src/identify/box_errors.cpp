@@ -89,7 +89,7 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
   const std::size_t m = found.of.size();
   if (m < 2 || errors.loose.size() + 1 != m) return std::nullopt;
 
-  // The direction within the not separately identifiable unknowns that is orthogonal to all loose
+  // The direction within the inseparable unknowns that is orthogonal to all loose
   // directions.
   Eigen::MatrixXd loose(static_cast<Eigen::Index>(m - 1), static_cast<Eigen::Index>(m));
   for (std::size_t k = 0; k + 1 < m; ++k)

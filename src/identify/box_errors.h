@@ -36,7 +36,7 @@ struct BoxErrors {
 [[nodiscard]] std::vector<double> determined_directions(std::span<const double> jacobian,
                                                         std::size_t unknowns);
 
-// The combination of the not separately identifiable unknowns that the data determine; nothing
+// The combination of the inseparable unknowns that the data determine; nothing
 // unless there is just one.
 [[nodiscard]] std::optional<Combination> combination(const BoxErrors& errors,
                                                      std::span<const Unknown> unknowns,

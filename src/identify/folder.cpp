@@ -57,13 +57,14 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
     page.headline(first.unknown.name() + " " + value, interval);
     lines.erase(lines.begin());
-  } else if (const auto known = std::find_if(
-                 lines.begin(), lines.end(),
-                 [](const std::string& line) { return line.starts_with("Determined is "); });
-             known != lines.end()) {
-    page.headline("Determined is", known->substr(14));
-    lines.erase(known);
   }
+  for (const std::string& line : lines)  // inseparable unknowns: what is determined of them
+    if (const std::size_t at = line.find("Determined is "); at != std::string::npos) {
+      const std::string known = line.substr(at + 14, line.find(';', at) - at - 14);
+      const std::size_t end = std::min(known.find(", "), known.size());
+      page.headline(known.substr(0, end), known.substr(std::min(end + 2, known.size())));
+      break;
+    }
   page.answer(lines);
   page.section("Figures", page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;

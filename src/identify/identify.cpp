@@ -691,8 +691,7 @@ class Search {
   const std::vector<Pair>& pairs_;
   const std::vector<Unknown>& unknowns_;
   const IdentifyOptions& options_;
-  std::vector<Profile::Point>
-      valley_;  // of the not separately identifiable unknowns, over their ranges
+  std::vector<Profile::Point> valley_;  // of the inseparable unknowns, over their ranges
   std::vector<Part> parts_;
   std::vector<double> weights_;
   BoxProblem problem_;

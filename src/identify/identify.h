@@ -29,8 +29,8 @@ struct Identified {
   double u = 0.0;            // at the best fit
   bool inseparable = false;  // the data do not determine this unknown by itself
   bool at_bound = false;     // the best fit is on the edge of its range
-  double estimate = 0.0;  // the best fit; needed for not separately identifiable unknowns too, to
-                          // repeat the curve
+  double estimate = 0.0;     // the best fit; needed for inseparable unknowns too, to
+                             // repeat the curve
   std::optional<double> std_error;
   std::optional<double> ci95_low, ci95_high;        // Student's t, docs/theory.md [interval]
   std::optional<double> profile_low, profile_high;  // nothing: the interval is open on this side
@@ -38,7 +38,7 @@ struct Identified {
   std::optional<double> moved_down, moved_up;  // change if x = 0 moves down, up by contact_shift
 };
 
-// A combination of not separately identifiable unknowns that the data determine: E / (1 - nu^2), a
+// A combination of inseparable unknowns that the data determine: E / (1 - nu^2), a
 // product of powers or, if a lower bound is not positive, a weighted sum.
 struct Combination {
   std::string text;             // formula in the keys' names

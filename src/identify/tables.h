@@ -9,7 +9,7 @@
 
 namespace palpate::identify {
 
-// unknown, unit, estimate, std_error, ci95_low, ci95_high, at_bound, not separately identifiable,
+// unknown, unit, estimate, std_error, ci95_low, ci95_high, at_bound, identifiable,
 // profile_low, profile_high, interval, moved_down, moved_up: one row per unknown, then one per
 // combination. Tied unknowns have no numbers; `interval` names the interval to trust, `student` or
 // `profile`.
@@ -40,7 +40,7 @@ struct EstimateTexts {
 };
 [[nodiscard]] EstimateTexts estimate_texts(const Identification& found, const Identified& one);
 
-// Lines for stdout: estimates, not separately identifiable unknowns, model, residuals and effect of
+// Lines for stdout: estimates, inseparable unknowns, model, residuals and effect of
 // the contact point.
 [[nodiscard]] std::vector<std::string> identified_sentences(const Identification& found);
 

@@ -104,7 +104,8 @@ Found find(const std::string& name, const std::string& folder, const Place& plac
     try {
       found.file_text = read_text(path.string());
     } catch (const InputError& error) {
-      throw InputError(place, "`material` names a file that " + error.problems()[0].message);
+      throw InputError(place, "`material` names " + ticked(path.string()) + ", which " +
+                                  error.problems()[0].message);
     }
     root = parse_toml(found.file_text, path.string());
   }

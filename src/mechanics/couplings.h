@@ -31,7 +31,7 @@ class ContactInertia {
   // The part must outlive this.
   explicit ContactInertia(MovingPart& part);
 
-  // s of [inertia]: the mean surface displacement of the surface under a contact's wide patch, m.
+  // s of [inertia]: the mean displacement of the surface under a contact's wide patch, m.
   [[nodiscard]] double sunk(const integrate::Vector& displacement,
                             const SphereContact& contact) const;
 

@@ -1,4 +1,4 @@
-// The table of models of models: name, requirements, abilities, error and cost of each model, in
+// The table of models: name, requirements, abilities, error and cost of each model, in
 // one table for the choice, `explain`, checks and the manual.
 #pragma once
 

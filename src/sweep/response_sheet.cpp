@@ -143,7 +143,7 @@ std::string map(const Response& response) {
       "set ylabel " + plot::gnuplot_quoted(factor_label(*response.along)) + "\n" +
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
       scale_of_one("cb", response) + "set cblabel " +
-      plot::gnuplot_quoted(output_label(response.output)) + " offset 1,0\n" +
+      plot::gnuplot_quoted(output_label(response.output)) + " offset 0.2,0\n" +
       "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.365\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
       // Edges of SVG are crisp; in other pictures the background would shine through between cells.
@@ -232,14 +232,14 @@ std::string curve_plots(const Response& response) {
 plot::Sheet response_sheet(const Response& response) {
   const bool both = response.is_map();
   std::string text = plot::gnuplot_head(response.name, {.height = both ? 720 : 400}) +
-                     "set xlabel offset 0,0.6\nset ylabel offset 0.6,0\n" + plot::gnuplot_palette();
+                     "set xlabel offset 0,0.6\nset ylabel offset 1,0\n" + plot::gnuplot_palette();
   const std::string title = plot::gnuplot_quoted(response.title);
   const std::string label =
       "set xlabel " + plot::gnuplot_quoted(factor_label(response.across)) + "\n";
   if (both) {
     const Lines lines = lines_of(response);
     if (!lines.segments.empty()) text += data_of_lines(response, lines);
-    text += "set multiplot\nset lmargin at screen 0.14\nset rmargin at screen 0.79\nset title " +
+    text += "set multiplot\nset lmargin at screen 0.165\nset rmargin at screen 0.785\nset title " +
             title + "\nset tmargin at screen 0.93\nset bmargin at screen 0.565\n" + label +
             map(response) +
             "unset title\nset tmargin at screen 0.45\nset bmargin at screen 0.1\n"
@@ -249,7 +249,7 @@ plot::Sheet response_sheet(const Response& response) {
             curve_plots(response) + "unset multiplot\n";
   } else {
     const Ends range = ends(response.grid.x);
-    text += "set lmargin at screen 0.14\nset rmargin at screen 0.79\nset title " + title + "\n" +
+    text += "set lmargin at screen 0.165\nset rmargin at screen 0.785\nset title " + title + "\n" +
             label + axis("x", response.across, range.low, range.high) +
             "set key at screen 0.805, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"

@@ -112,6 +112,11 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
       {{"golden", "bless", "press"},
        "`palpate golden bless` is `palpate golden add --force --reason TEXT` now"},
       {{"run", "a.toml", "--forse"}, "unknown option `--forse`; did you mean `--force`?"},
+      {{"run", "a.toml", "--workers", "2"},
+       "unknown option `--workers`; known: --help, --version, --quiet, --no-color, --json, --csv, "
+       "--out, --set, --jobs, --force, --dry-run, --device, --arm, --realtime, --traffic, "
+       "--expect, "
+       "--surface, --max-force, --seconds"},
       {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
       {{"compare", "a", "b", "--jobs", "2"}, "unknown option `--jobs`; did you mean `--json`?"},
       {{"--force", "run", "a.toml"},

@@ -212,10 +212,9 @@ TEST_F(Files, TablesThatCannotBeUsed) {
         "[gel]\ndensitty = { value = \"1 kg/m^3\" }\nyoung_modulus = { value = \"0 kPa\" }\n");
   write("empty.toml", "a = 1\n");
   write("rubbish.toml", "\x01\x02");
-  EXPECT_EQ(
-      said("[tissue]\nmaterial = \"no.toml#gel\"\n"),
-      "press.toml:5:12: `material` names a file that cannot be read: No such file or directory; "
-      "check the path");
+  EXPECT_EQ(said("[tissue]\nmaterial = \"no.toml#gel\"\n"),
+            "press.toml:5:12: `material` names `" + (folder_ / "no.toml").string() +
+                "`, which cannot be read: No such file or directory; check the path");
   EXPECT_EQ(
       said("[tissue]\nmaterial = \"my.toml#gell\"\n"),
       "press.toml:5:12: `material` does not know `gell`; did you mean `gel`? Known here: gel; "
