@@ -32,6 +32,10 @@ struct UnitWord {
 // The unit of a word in letters of any size; null if it is none.
 [[nodiscard]] const UnitWord* unit_word(std::string_view text);
 
+// The length (m) of the unit of a file's coordinates, also in inches. Throws std::invalid_argument
+// if it is no length.
+[[nodiscard]] double metres_per(const std::string& unit);
+
 // A regular expression (ECMA) of the units of a dimension: every single symbol that has it, with
 // any prefix, and every product, quotient or power, whatever its dimension.
 [[nodiscard]] std::string unit_pattern(const Dimension& dimension);

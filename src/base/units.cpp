@@ -260,6 +260,13 @@ const UnitWord* unit_word(std::string_view text) {
   return nullptr;
 }
 
+double metres_per(const std::string& unit) {
+  const UnitWord* word = unit_word(unit);
+  return word != nullptr && word->factor.dimension == unit::mm.dimension
+             ? word->factor.to_si(1.0)
+             : parse_quantity("1 " + unit, unit::mm);
+}
+
 std::string si_unit(const Dimension& dimension) { return si_symbol(dimension); }
 
 std::string unit_pattern(const Dimension& dimension) {

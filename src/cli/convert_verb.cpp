@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "base/unit_factor.h"
 #include "base/units.h"
 #include "base/whole_folder.h"
 #include "cli/program.h"
@@ -96,9 +97,9 @@ void check_options(const Convert& command, Kind kind) {
          " is for surfaces; write `--set tissue.mesh.nodes=728` or another key of `tissue.mesh`");
 }
 
-double metres_per(const std::string& symbol) {
+double unit_of(const std::string& symbol) {
   try {
-    return parse_quantity("1 " + symbol, unit::mm);
+    return metres_per(symbol);
   } catch (const std::invalid_argument&) {
     refuse("`--unit` wants a unit of length, got `" + symbol + "`; write `--unit mm`");
   }
@@ -158,13 +159,13 @@ geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
   meshing::Target target{.nodes = command.nodes};
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
   auto [surface, mended] = meshing::whole_surface(
-      meshing::read_surface(command.subject, metres_per(command.unit)), command.subject, {});
+      meshing::read_surface(command.subject, unit_of(command.unit)), command.subject, {});
   if (!mended.empty()) talk.say("note: " + mended);
   for (const std::string& out : command.out) {
     if (!is_surface_file(out)) continue;
     if (!command.force && fs::exists(out))
       throw InputError({out, 0, 0}, "is there already; give another name, or `--force`");
-    meshing::write_surface(out, surface, metres_per(command.unit));
+    meshing::write_surface(out, surface, unit_of(command.unit));
   }
   // An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
   if (target.nodes == 0 && target.edge_length == 0.0)
@@ -431,7 +432,7 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
       const ProgressLine line(talk, [&](double) { return command.subject; });
       mesh = mesh_of_surface(command, talk);
     } else {
-      auto [found, names, warning] = meshing::read_mesh(command.subject, metres_per(command.unit));
+      auto [found, names, warning] = meshing::read_mesh(command.subject, unit_of(command.unit));
       mesh = std::move(found);
       if (!warning.empty()) talk.say("note: " + warning);
       for (const auto& [name, number] : names)

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/files.h"
+#include "base/unit_factor.h"
 #include "base/units.h"
 #include "material/tissue_table.h"
 #include "scenario/family.h"
@@ -47,7 +48,7 @@ void read_named_file(const NamedFile& named, const Node& document, Sources& sour
   if (named.unit.empty())
     throw InputError(place, quoted + " lacks the unit of its coordinates; write `unit = \"mm\"`");
   try {
-    (void)parse_quantity("1 " + named.unit, unit::mm);
+    (void)metres_per(named.unit);
   } catch (const std::invalid_argument&) {
     throw InputError(
         place_of(document, path + ".unit"),

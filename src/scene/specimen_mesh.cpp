@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "base/units.h"
+#include "base/unit_factor.h"
 #include "geometry/cuboid.h"
 #include "meshing/bisection.h"
 #include "meshing/mesh_check.h"
@@ -50,8 +50,6 @@ void number_slabs(geometry::TetMesh& mesh, const Scenario& scenario) {
 std::string path_in(const std::string& folder, const std::string& file) {
   return (std::filesystem::path(folder) / file).string();
 }
-
-double metres_per(const std::string& symbol) { return parse_quantity("1 " + symbol, unit::mm); }
 
 meshing::Target target(const scenario::Tetgen& mesh) {
   meshing::Target target{.nodes = mesh.nodes, .tetrahedra = mesh.tetrahedra.value_or(0)};

@@ -2,11 +2,15 @@
 """Presses bodies from files of many kinds, by the defaults, and counts how many ran.
 
   tests/accuracy/files.py PALPATE [FILE...]
+  tests/accuracy/files.py PALPATE --places
 
 Without files it writes its own: one ball in every format of surfaces, the same with the faults that
 scans have, and one block in every format and kind of cells. A file of somebody else is pressed from
 above (z, or y for .obj) by a finger of a twenty-fifth of the body's size, in the unit with which
 that is between 3 and 70 cm. A line says what happened, processor time, and memory.
+
+With --places one uneven body is pressed from six sides, by `up`, by `towards` and as a turned file,
+and another with a lump is moved to four places of its file.
 """
 import base64
 import csv
@@ -372,8 +376,61 @@ def scenario(path, unit, size, up):
             '[output]\ninterval = "50 ms"\n' % (shape, radius, 0.1 * radius))
 
 
+def findings_of(result):
+    with open(os.path.join(result, 'asked', 'findings.csv')) as file:
+        heads, values = list(csv.reader(file))[:2]
+    return dict(zip(heads, values))
+
+
+def bulging(points, at=(48.0, 35.0, 30.0), by=0.25):
+    """The ball with a bulge, so that no two sides are alike."""
+    centre = (30.0, 25.0, 20.0)
+    grown = lambda p: 1 + by * math.exp(-sum((x - y) ** 2 for x, y in zip(p, at)) / 150)
+    return [tuple(c + (x - c) * grown(p) for x, c in zip(p, centre)) for p in points]
+
+
+def places(palpate):
+    points, faces = ball()
+    points = bulging(points)
+    with tempfile.TemporaryDirectory() as folder:
+        def force(points, shape='', finger='', rest=''):
+            with open(os.path.join(folder, 'body.off'), 'wb') as file:
+                file.write(off(points, faces))
+            with open(os.path.join(folder, 'asked.toml'), 'w') as file:
+                file.write('schema = 1\n[tissue]\nyoung_modulus = "10 kPa"\npoisson_ratio = 0.4\n'
+                           'viscosity = "none"\nshape = { file = "body.off", unit = "mm"%s }\n'
+                           '[finger]\nradius = "4 mm"\n%s\n[[step]]\nkind = "indent"\nto = "1 mm"\n'
+                           '%s' % (shape, finger, rest))
+            result = os.path.join(folder, 'result')
+            subprocess.run([palpate, 'run', os.path.join(folder, 'asked.toml'), '--out', result,
+                            '--force', '--quiet'], check=True, capture_output=True)
+            row = findings_of(result)
+            return '%.3f (%.1f)' % (1e3 * float(row['peak_force_N']),
+                                    100 * float(row['stated_error']))
+        print('| pressed side | by `up`, mN (stated, %) | by `towards` and `base_side` | turned file |')
+        print('|---|---|---|---|')
+        for side, turn in (('x', lambda p: (-p[2], p[1], p[0])), ('-x', lambda p: (p[2], p[1], -p[0])),
+                           ('y', lambda p: (p[0], -p[2], p[1])), ('-y', lambda p: (p[0], p[2], -p[1])),
+                           ('z', lambda p: p), ('-z', lambda p: (p[0], -p[1], -p[2]))):
+            other = side[1:] if side[0] == '-' else '-' + side
+            print('| %s | %s | %s | %s |' % (
+                side, force(points, ', up = "%s"' % side),
+                force(points, ' }\nbase_side = "%s" #' % other, 'towards = "%s"' % other),
+                force([turn(p) for p in points])), flush=True)
+        print('\n| body with a lump | mN (stated, %) |\n|---|---|')
+        for name, shift in (('from the corner of its box', (0, 0, 0)), ('about its middle', (-30, -25, -20)),
+                            ('far away', (1000, -500, 200))):
+            lump = ('[[region]]\nkind = "sphere"\ncentre = ["%g mm", "%g mm", "%g mm"]\nradius = "6 mm"\n'
+                    'young_modulus = "100 kPa"\n' % (30 + shift[0], 25 + shift[1], 30 + shift[2]))
+            print('| %s | %s |' % (name, force([tuple(x + s for x, s in zip(p, shift)) for p in points],
+                                               rest=lump)), flush=True)
+
+
 def main():
     palpate = os.path.abspath(sys.argv[1])
+    if sys.argv[2:] == ['--places']:
+        places(palpate)
+        return
     given = [os.path.abspath(path) for path in sys.argv[2:]]
     with tempfile.TemporaryDirectory() as folder:
         paths = given or write_own(folder)
@@ -398,9 +455,7 @@ def main():
             force = error = ''
             if code == 0:
                 ran += 1
-                with open(os.path.join(result, 'asked', 'findings.csv')) as file:
-                    heads, values = list(csv.reader(file))[:2]
-                row = dict(zip(heads, values))
+                row = findings_of(result)
                 force, error = row.get('peak_force_N', '')[:7], row.get('stated_error', '')[:6]
                 with open(os.path.join(result, 'asked', 'report.html')) as file:
                     was = 'was mended' in file.read()

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/unit_factor.h"
 #include "base/units.h"
 
 namespace palpate {
@@ -204,6 +205,13 @@ TEST(Units, TextIsShortInTheUnitThatWasAskedFor) {
   EXPECT_EQ(quantity_text(72400.0, unit::kPa), "72.4 kPa");
   EXPECT_EQ(quantity_text(0.0, unit::N), "0 N");
   EXPECT_EQ(quantity_text(1.7e308, unit::mm), "1.7e+308 m");  // in millimetres it is infinite
+}
+
+TEST(Units, AFileMayBeInInches) {
+  EXPECT_DOUBLE_EQ(metres_per("in"), 0.0254);
+  EXPECT_DOUBLE_EQ(metres_per("inch"), 0.0254);
+  EXPECT_DOUBLE_EQ(metres_per("mm"), 0.001);
+  EXPECT_THROW((void)metres_per("psi"), std::invalid_argument);
 }
 
 TEST(Units, DimensionsHaveNames) {

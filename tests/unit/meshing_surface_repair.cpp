@@ -106,6 +106,16 @@ TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   EXPECT_NEAR(geometry::enclosed(second).volume, 0.125 * geometry::enclosed(body()).volume, 1e-12);
 }
 
+// A public rabbit has legs, eyes and teeth that stand in its body.
+TEST(SurfaceRepair, a_part_that_cuts_the_one_taken_is_neither_a_cavity_nor_a_fault) {
+  for (const double scale : {0.9, 0.5}) {
+    const std::string text =
+        told(with(body(), body(), Vec3(0.05, 0.015, 0.01), scale, false), rounding);
+    EXPECT_NE(text.find("part 1 of 2 is taken, without part 2 near ("), std::string::npos) << text;
+    EXPECT_TRUE(text.ends_with(" of its volume, which cuts or touches it")) << text;
+  }
+}
+
 // However their triangles are turned; what lies in the cavity is excluded.
 TEST(SurfaceRepair, parts_inside_the_largest_are_cavities) {
   const double volume = geometry::enclosed(body()).volume;
@@ -144,6 +154,12 @@ TEST(SurfaceRepair, what_is_worse_is_refused_with_its_size) {
   };
   const std::string wide = refusal(open, {});
   EXPECT_TRUE(wide.starts_with("surface `paw`: is open: 1 hole would need ")) << wide;
+  const auto at = wide.find("set `repair_up_to = ");
+  ASSERT_NE(at, std::string::npos) << wide;
+  const double enough = std::stod(wide.substr(at + 20));
+  const Surface closed = whole_surface(open, "paw", {.most_missing = enough}).surface;
+  EXPECT_LT(geometry::enclosed(closed).volume, geometry::enclosed(body()).volume);
+  EXPECT_NE(refusal(open, {.most_missing = enough - 0.01}).find("is open"), std::string::npos);
   Surface doubled = body();
   doubled.triangles.push_back(doubled.triangles[7]);
   EXPECT_NE(refusal(doubled, {.repair = false}).find("have the same vertices"), std::string::npos);

@@ -104,6 +104,34 @@ TEST_F(PlacedBody, the_way_of_the_finger_becomes_minus_z) {
   EXPECT_NEAR(side.tissue.turn.determinant(), 1.0, 1e-12);  // rounding
 }
 
+// Twice 30 mm wide with a hole of 20 mm, 10 mm high.
+TEST_F(PlacedBody, a_finger_without_a_place_presses_a_ring_on_its_top) {
+  geometry::Surface ring;
+  for (const double half : {30.0, 10.0})
+    for (const double z : {0.0, 10.0})
+      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+        ring.vertices.emplace_back(half * x, half * y, z);
+  const auto side = [&](int a, int b, int c, int d) {
+    ring.triangles.push_back({a, b, c});
+    ring.triangles.push_back({a, c, d});
+  };
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4;
+    side(i, j, j + 4, i + 4);           // outside
+    side(j + 8, i + 8, i + 12, j + 12); // in the hole
+    side(i + 4, j + 4, j + 12, i + 12); // top
+    side(j, i, i + 8, j + 8);           // bottom
+  }
+  meshing::write_surface(folder_ + "/box.off", ring, 1.0);
+  const scenario::Resolved small = placed("", "[finger]\nradius = \"5 mm\"\n");
+  EXPECT_TRUE(small.finger.moved);
+  const double x = std::abs(small.finger.x.value()), y = std::abs(small.finger.y.value());
+  EXPECT_TRUE(std::max(x, y) > 0.010 && std::max(x, y) < 0.030) << x << " " << y;
+  // A large one rests on the edges of the hole, and one with a place keeps it.
+  EXPECT_FALSE(placed("", "[finger]\nradius = \"25 mm\"\n").finger.moved);
+  EXPECT_FALSE(placed("", "[finger]\nx = \"20 mm\"\n").finger.moved);
+}
+
 TEST_F(PlacedBody, a_place_is_taken_to_the_surface_and_pressed_along_its_normal) {
   const scenario::Resolved side =
       placed("",
