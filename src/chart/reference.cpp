@@ -317,7 +317,7 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
   const auto run_level = [&](int level, Direction direction) {
     const scene::Scene scene = refinement.build(level, direction);
     set_doing({"level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
-              std::to_string(scene.specimen->network.nodes()) + " nodes"});
+               std::to_string(scene.specimen->network.nodes()) + " nodes"});
     record::CaseRecord record = run::run_case(scene);
     if (record.outcome != record::Outcome::completed)
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;

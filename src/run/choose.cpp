@@ -395,12 +395,12 @@ class Chooser {
     // The time of a set-up by conjugate gradients.
     const double nodes = scene::expected_nodes(asked_.tissue.mesh);
     const double set_up = 5.5e-5 * nodes * std::max(1.0, std::cbrt(nodes / 8000.0));
-    choice_.forecasts.push_back(
-        {.model = traits.of,
-         .error = error,
-         .of_mesh = of_mesh,
-         .seconds = traits.cost.once + (asked_.regions.empty() ? 0.0 : traits.cost.layered) +
-                    traits.cost.set_ups * set_up});
+    choice_.forecasts.push_back({.model = traits.of,
+                                 .error = error,
+                                 .of_mesh = of_mesh,
+                                 .seconds = traits.cost.once +
+                                            (asked_.regions.empty() ? 0.0 : traits.cost.layered) +
+                                            traits.cost.set_ups * set_up});
   }
 
   void take_cheapest() {

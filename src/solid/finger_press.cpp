@@ -383,8 +383,8 @@ Moment FingerPress::moment_of(const Answer& answer, double force) {
 
 std::optional<Answer> FingerPress::go(double travel) {
   set_doing({order_.part + std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
-            quantity_text(travel / order_.share, unit::mm) + " of " +
-            quantity_text(order_.deepest, unit::mm)});
+             quantity_text(travel / order_.share, unit::mm) + " of " +
+             quantity_text(order_.deepest, unit::mm)});
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) {
     const double reached = order_.touch.finger.z() - press_->reached().z();

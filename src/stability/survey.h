@@ -11,7 +11,7 @@ struct Survey {
   const scenario::Family* family = nullptr;
   const Told* told = nullptr;
   scene::SpecimenShapes shapes;     // of all bodies
-  ModelAndVolume given;                  // of the scenario
+  ModelAndVolume given;             // of the scenario
   std::unique_ptr<ProbedBody> own;  // the scenario's specimen
   StabilityMap map;
   int done = 0;     // measurements

@@ -31,7 +31,7 @@ std::unique_ptr<ProbedBody> small(const ModelAndVolume& traits, const scenario::
 constexpr Viscosity forms[] = {Viscosity::none, Viscosity::nodal_drag, Viscosity::kelvin_voigt,
                                Viscosity::standard_linear_solid};
 constexpr ModelAndVolume model_traits[] = {{Solver::Model::mass_spring, Solver::Volume::none},
-                                     {Solver::Model::coupled_springs, Solver::Volume::nodal}};
+                                           {Solver::Model::coupled_springs, Solver::Volume::nodal}};
 
 class Limits : public testing::TestWithParam<ModelAndVolume> {};
 

@@ -116,7 +116,7 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "unknown option `--workers`; known: --help, --version, --quiet, --no-color, --json, --csv, "
        "--out, --set, --jobs, --force, --dry-run, --device, --arm, --realtime, --traffic, "
        "--expect, "
-       "--surface, --max-force, --seconds"},
+       "--surface, --max-force, --seconds, --clock"},
       {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
       {{"compare", "a", "b", "--jobs", "2"}, "unknown option `--jobs`; did you mean `--json`?"},
       {{"--force", "run", "a.toml"},
