@@ -232,7 +232,7 @@ namespace {
 
 using cgal_library::Mending;
 
-constexpr double speck = 1e-3;         // of the volume, below which a part is left out
+constexpr double speck = 1e-3;  // of the volume, below which a part is left out
 constexpr ChildLimits mending_limits{120.0, 8.0 * 1024 * 1024 * 1024};  // s, bytes
 
 // Vertices within a millionth of the size become one: the rounding of files in single precision.

@@ -117,8 +117,9 @@ class Findings {
     if (!mended.empty()) remark(mended);
     const scenario::Resolved& scenario = scene_.scenario;
     if (scenario.finger.moved)
-      remark("the middle of the body's box is beside the body, so that the finger presses its top; "
-             "set `finger.at` for another place");
+      remark(
+          "the middle of the body's box is beside the body, so that the finger presses its top; "
+          "set `finger.at` for another place");
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     const geometry::SmoothSurface* const skin = scene_.specimen ? &*scene_.specimen->surface
                                                 : scene_.solid  ? scene_.solid->skin.get()
