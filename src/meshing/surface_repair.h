@@ -36,8 +36,8 @@ struct RepairOrder {
 // The surface itself if it passes check_closed(). Otherwise its vertices within a millionth of its
 // size are joined, doubled triangles removed, sheets that share a vertex parted, all triangles
 // turned one way, holes filled and triangles replaced that cross others of the same part, if the
-// holes, and these triangles, have at most a part of its area. Of several parts one remains, with the
-// cavities in it where no part is asked for; parts of less than a thousandth of its volume are
+// holes, and these triangles, have at most a part of its area. Of several parts one remains, with
+// the cavities in it where no part is asked for; parts of less than a thousandth of its volume are
 // removed. Throws MeshError as check_closed() does for what is worse. `name` is that of the surface
 // in messages.
 [[nodiscard]] WholeSurface whole_surface(geometry::Surface surface, const std::string& name,

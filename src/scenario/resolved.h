@@ -28,7 +28,7 @@ struct Resolved : PlainScenario {
   struct Finger : PlainFinger {
     double density = 0.0;                     // kg/m^3
     std::optional<contact::Elastic> elastic;  // none if rigid, and in a uniform test
-    bool moved = false;  // to the top of a body that has nothing at its middle
+    bool moved = false;                       // to the top of a body that has nothing at its middle
   };
   struct Contact : PlainContact {
     Viscosity viscosity = Viscosity::none;

@@ -64,11 +64,11 @@ struct SurfaceFile {
       "triangles that are too fine, "
       "and needles, are replaced."};
   std::string file;
-  std::string unit;         // symbol of a length unit
-  std::string up = "z";     // the direction of the file's coordinates that points up
-  bool repair = true;       // small faults of the surface
+  std::string unit;            // symbol of a length unit
+  std::string up = "z";        // the direction of the file's coordinates that points up
+  bool repair = true;          // small faults of the surface
   double repair_up_to = 0.02;  // of its area
-  std::optional<int> part;  // of several closed parts; empty: the only one, or the largest
+  std::optional<int> part;     // of several closed parts; empty: the only one, or the largest
 };
 struct AsMeshed {
   static constexpr Word word{"as_meshed", "The shape of the ready mesh that `tissue.mesh` names."};

@@ -180,8 +180,7 @@ SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario
                                                         const std::string& folder) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
   std::string key = folder + "\n" + file.file + "\n" + file.unit + (file.repair ? "\nr" : "\n") +
-                    number_text(file.repair_up_to) + "\n" +
-                    std::to_string(file.part.value_or(0));
+                    number_text(file.repair_up_to) + "\n" + std::to_string(file.part.value_or(0));
   for (int i = 0; i < 9; ++i) key += " " + number_text(scenario.tissue.turn(i / 3, i % 3));
   const std::lock_guard lock(looking_up_);
   return surfaces_[key];

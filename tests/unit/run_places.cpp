@@ -117,10 +117,10 @@ TEST_F(PlacedBody, a_finger_without_a_place_presses_a_ring_on_its_top) {
   };
   for (int i = 0; i < 4; ++i) {
     const int j = (i + 1) % 4;
-    side(i, j, j + 4, i + 4);           // outside
-    side(j + 8, i + 8, i + 12, j + 12); // in the hole
-    side(i + 4, j + 4, j + 12, i + 12); // top
-    side(j, i, i + 8, j + 8);           // bottom
+    side(i, j, j + 4, i + 4);            // outside
+    side(j + 8, i + 8, i + 12, j + 12);  // in the hole
+    side(i + 4, j + 4, j + 12, i + 12);  // top
+    side(j, i, i + 8, j + 8);            // bottom
   }
   meshing::write_surface(folder_ + "/box.off", ring, 1.0);
   const scenario::Resolved small = placed("", "[finger]\nradius = \"5 mm\"\n");
