@@ -25,7 +25,7 @@ struct Profile {
 [[nodiscard]] Profile profile(const BoxProblem& problem, const BoxMinimum& best, std::size_t i,
                               std::span<const double> covariance, double sigma, double t);
 
-// For a inseparable unknown: nine points, evenly over the box, without a search for
+// For an inseparable unknown: nine points, evenly over the box, without a search for
 // the ends.
 [[nodiscard]] Profile profile_over_box(const BoxProblem& problem, const BoxMinimum& best,
                                        std::size_t i);
