@@ -230,6 +230,8 @@ class Explanation {
       line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
     if (!scene_.choice.touch.remark.empty()) line("  mended       " + scene_.choice.touch.remark);
     towards();
+    if (scene_.scenario.finger.moved)
+      line("  press        on the top, since the middle of the body's box is beside the body");
     if (!scene_.specimen) top();
     const geometry::SmoothSurface* const skin = scene_.specimen ? &*scene_.specimen->surface
                                                 : scene_.solid  ? scene_.solid->skin.get()
