@@ -231,6 +231,8 @@ class Explanation {
       line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
     if (!scene_.choice.touch.warning.empty()) line("  mended       " + scene_.choice.touch.warning);
     towards();
+    if (scene_.scenario.finger.moved)
+      line("  press        on the top, since the middle of the body's box is beside the body");
     if (!scene_.specimen) top();
     const geometry::SmoothSurface* const outer_surface =
         scene_.specimen ? &*scene_.specimen->surface

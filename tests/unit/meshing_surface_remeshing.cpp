@@ -147,6 +147,28 @@ TEST(FineSurface, KeepsADetailByShorterEdges) {
   EXPECT_NEAR(highest, 0.054, remeshing_limit(fine, 15e-3));
 }
 
+// A body with two thin horns is coarse but for these.
+TEST(FineSurface, KeepsThinLimbsByShorterEdgesThereAlone) {
+  geometry::Surface body =
+      geometry::sampled(geometry::Ellipsoid{Vec3(0.06, 0.05, 0.04)}, {0.0015, 0.0015})
+          .parts.front()
+          .surface;
+  const Vec3 middle(0.03, 0.025, 0.02);
+  for (Vec3& vertex : body.vertices) {
+    const Vec3 out = vertex - middle;
+    for (const Vec3& way : {Vec3(1.0, 0.0, 0.3), Vec3(-1.0, 0.2, 0.2)}) {
+      const double angle = std::acos(std::min(1.0, out.normalized().dot(way.normalized())));
+      vertex += 1.2 * std::exp(-angle * angle / (0.16 * 0.16)) * out;
+    }
+  }
+  const auto coarse = remeshed(body, cell_for(body, 150));
+  ASSERT_TRUE(coarse.has_value());
+  EXPECT_LT(coarse->surface.triangles.size(), 800U);
+  EXPECT_LE(coarse->distance, remeshing_limit(body, cell_for(body, 150)));
+  EXPECT_NEAR(geometry::enclosed(coarse->surface).volume, geometry::enclosed(body).volume,
+              0.005 * geometry::enclosed(body).volume);  // as promised
+}
+
 TEST(FineSurface, IsTheSameToTheBitAgain) {
   const Surface fine = sampled(geometry::Cylinder{}, 1.5e-3);
   const auto first = remeshed(fine, 8e-3);
