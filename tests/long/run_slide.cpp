@@ -171,7 +171,7 @@ TEST(Slide, SticksAsCattaneoAndMindlinSayAndThenSlips) {
 }
 
 TEST(Slide, StickHasTheIndependentNumbers) {
-  // OuterSurface at 1 mm, mu 0.5, Q half of mu F.
+  // Skin at 1 mm, mu 0.5, Q half of mu F.
   const scene::Scene scene = build_slide({"contact.friction=0.5"}, slide_closed_form);
   const double force =
       contact::hertz::force(1e-3, scene.finger.sphere_radius, scene.finger.sphere_modulus);

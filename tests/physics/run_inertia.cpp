@@ -12,7 +12,7 @@
 namespace palpate {
 namespace {
 
-// OuterSurface 60 x 60 x 30 mm without viscosity, rigid sphere of 11 mm, pressed by 1 mm at 100
+// Skin 60 x 60 x 30 mm without viscosity, rigid sphere of 11 mm, pressed by 1 mm at 100
 // mm/s and held: `resolved` coupled springs on graded lattices of 2197, 4096 and 6859 nodes in
 // implicit steps of 0.025 ms, mean of the three (they differ by 0.3 to 2 %), force in mN at every
 // ms.

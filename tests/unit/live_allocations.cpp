@@ -25,7 +25,7 @@ const std::string programme =
     "[[step]]\nkind = \"retract\"\nto = \"0 mm\"\nrate = \"20 mm/s\"\n"
     "[output]\npressure_maps = false\n";
 
-// OuterSurface 60 x 60 x 30 mm; and a limb of skin, muscle and bone.
+// Skin 60 x 60 x 30 mm; and a limb of skin, muscle and bone.
 const std::string block = "mesh = { kind = \"kuhn\", cells = [3, 4, 6] }\n";
 const std::string limb =
     "shape = { kind = \"layered_limb\" }\nmesh = { kind = \"tetgen\", nodes = 200 }\n";

@@ -67,7 +67,7 @@ TEST(SurfaceNet, MovesNoVertexThroughAnotherSheet) {
   EXPECT_EQ(crossing(2), 0u);
 }
 
-// "OuterSurface over fat with a lump": a later region replaces an earlier one, also where a slab
+// "Skin over fat with a lump": a later region replaces an earlier one, also where a slab
 // cuts it.
 TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
   const geometry::Lump lump{Vec3(0.022, 0.018, 0.010), 0.004, 0};
