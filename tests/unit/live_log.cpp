@@ -83,7 +83,8 @@ double writes() {
 TEST(LiveFiles, are_written_page_by_page) {
   const test::TemporaryFolder folder;
   const std::string path = folder / "rows.csv";
-  const std::string line = std::string(99, 'x') + "\n";
+  std::string line(100, 'x');
+  line.back() = '\n';
   std::string text;
   for (int i = 0; i < 60; ++i) text += line;
   LiveFile file(path);
