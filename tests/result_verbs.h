@@ -168,7 +168,7 @@ inline std::vector<ResultVerb> result_verbs() {
        {},
        true},
       {"stability", replacing({"stability", "block.toml"}), "out/block_stability",
-       "tissue.young_modulus=20 kPa", "tissue.young_modulus=30 kPa", 40},
+       "tissue.young_modulus=20 kPa", "tissue.young_modulus=30 kPa", 16},
       {"merge",
        {"sweep", "merge", "out/sweep_sweep", "--force", "--quiet"},
        "out/sweep_sweep/merged",

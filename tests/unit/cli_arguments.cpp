@@ -118,7 +118,10 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "--expect, "
        "--surface, --max-force, --seconds, --clock"},
       {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
-      {{"compare", "a", "b", "--jobs", "2"}, "unknown option `--jobs`; did you mean `--json`?"},
+      {{"compare", "a", "b", "--jobs", "2"},
+       "unknown option `--jobs`; known: --help, --version, --quiet, --no-color, --json, --csv, "
+       "--tolerances, --report, --junit, --annotations"},
+      {{"compare", "a", "b", "--jsom"}, "unknown option `--jsom`; did you mean `--json`?"},
       {{"--force", "run", "a.toml"},
        "option `--force` stands before its verb; write it as `palpate run ... --force`"},
       {{"run"}, "`palpate run` lacks `scenario`; `palpate run --help` shows how to write it"},
