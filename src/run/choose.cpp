@@ -73,7 +73,7 @@ constexpr auto question_table = std::to_array<QuestionRow>({
      "one curvature is enough", "both curvatures matter, the contact is elliptic"},
     {"time_dependent", "viscosity", "increase of the force by viscosity",
      "the press is slow against the tissue's time constant", ""},
-    {"inertia", "inertia", "change of the force by inertia", "the loading is slow against waves",
+    {"inertia", "inertia", "increase of the force by waves", "the loading is slow against waves",
      ""},
     {"shape_or_inclusion", "formula", "", "", ""},
     {"family", "family", "", "",
@@ -251,7 +251,6 @@ class Chooser {
       // What an elastic finger takes of the depth knows nothing of the body.
       const double change = e.tissue_share * found.change;
       e.size_error = e.tissue_share * found.error;
-      e.inertia += swing(found, e, asked_.tissue);
       e.measured = true;
       if (std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape)) {
         const bool layered = !asked_.regions.empty();
