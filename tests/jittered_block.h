@@ -9,6 +9,7 @@
 #include "base/block_matrix.h"
 #include "base/cholesky.h"
 #include "geometry/cuboid.h"
+#include "plain_springs.h"
 #include "test_surfaces.h"
 #include "tissue/coupled.h"
 #include "tissue/springs.h"
@@ -77,18 +78,18 @@ inline tissue::Vector elastic_force(const tissue::Network& network, tissue::Kine
                                     const tissue::Vector& displacement) {
   std::vector<double> elongation(network.ends.size());
   std::vector<double> tension(network.ends.size());
-  tissue::elongations(network, kinematics, displacement, elongation);
+  test::elongations(network, kinematics, displacement, elongation);
   tissue::tensions(network, elongation, tension);
   tissue::Vector force;
-  tissue::gather_forces(network, kinematics, displacement, tension, force);
+  test::gather_forces(network, kinematics, displacement, tension, force);
   return force;
 }
 
 inline double elastic_energy(const tissue::Network& network, tissue::Kinematics kinematics,
                              const tissue::Vector& displacement) {
   std::vector<double> elongation(network.ends.size());
-  tissue::elongations(network, kinematics, displacement, elongation);
-  return 0.5 * tissue::work(network, elongation, elongation);
+  test::elongations(network, kinematics, displacement, elongation);
+  return 0.5 * test::work(network, elongation, elongation);
 }
 
 inline Eigen::MatrixXd dense(const SplitMatrix& matrix) {

@@ -20,9 +20,14 @@ inline contact::LayerSolution layer_at_chi(const contact::LayerEquation& equatio
   return solution;
 }
 
+// One solution with the resolution that the ratio a/H needs.
+inline contact::LayerSolution solve_layer(double ratio, const contact::Layer& layer) {
+  return contact::LayerEquation(layer, contact::layer_resolution(ratio / layer.top())).solve(ratio);
+}
+
 // kappa of a rigid flat punch of radius a = ratio H: F = 2 a E* h kappa. At least 1 on one layer.
 inline double flat_punch_factor(double ratio, const contact::Layer& layer) {
-  return contact::solve_layer(ratio, layer).punch;
+  return solve_layer(ratio, layer).punch;
 }
 
 // c_1 of F / F_Hertz = 1 + c_1 chi + 7/6 c_1^2 chi^2 + ..., the thickness to first order:

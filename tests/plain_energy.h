@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "plain_springs.h"
 #include "tissue/springs.h"
 #include "tissue/viscous.h"
 
@@ -28,10 +29,10 @@ inline double stored_energy(const tissue::Network& network, const tissue::Viscou
                             std::span<const double> memory) {
   const std::size_t size = std::max<std::size_t>(1, tissue::memory_size(law));
   const std::vector<double> e = remembered(memory, size, 0);
-  double sum = 0.5 * tissue::work(network, e, e);
+  double sum = 0.5 * test::work(network, e, e);
   for (std::size_t i = 0; i < law.branches.size(); ++i) {
     const std::vector<double> rest = minus(e, remembered(memory, size, 1 + i));
-    sum += 0.5 * law.branches[i].ratio * tissue::work(network, rest, rest);
+    sum += 0.5 * law.branches[i].ratio * test::work(network, rest, rest);
   }
   return sum;
 }
@@ -47,7 +48,7 @@ inline double dissipated_energy(const tissue::Network& network, const tissue::Vi
   if (law.kind == tissue::Viscosity::kelvin_voigt) {
     const std::vector<double> change =
         minus(remembered(after, size, 0), remembered(before, size, 0));
-    sum = law.time * tissue::work(network, change, change) / time_step;
+    sum = law.time * test::work(network, change, change) / time_step;
   }
   for (std::size_t i = 0; i < law.branches.size(); ++i) {
     std::vector<double> mean = minus(remembered(before, size, 0), remembered(before, size, 1 + i));
@@ -55,8 +56,8 @@ inline double dissipated_energy(const tissue::Network& network, const tissue::Vi
         minus(remembered(after, size, 0), remembered(after, size, 1 + i));
     for (std::size_t s = 0; s < mean.size(); ++s) mean[s] = 0.5 * (mean[s] + end[s]);
     sum += law.branches[i].ratio *
-           tissue::work(network, mean,
-                        minus(remembered(after, size, 1 + i), remembered(before, size, 1 + i)));
+           test::work(network, mean,
+                      minus(remembered(after, size, 1 + i), remembered(before, size, 1 + i)));
   }
   if (law.kind == tissue::Viscosity::nodal_drag)
     for (Eigen::Index d = 0; d < moved.size(); ++d)

@@ -276,9 +276,9 @@ class Measurer {
     if (kept != journal_.references().end()) {
       found = truth_of(kept->second);
     } else {
-      Variant traits = one.variant;
-      traits.settings = {"solver.model=" + one.model};
-      if (const auto exact = exact_in_time(asked_, traits, known_modes_))
+      Variant plain = one.variant;
+      plain.settings = {"solver.model=" + one.model};
+      if (const auto exact = exact_in_time(asked_, plain, known_modes_))
         found = {"modal", "exact in time", *exact};
       StopScope::end_if_stopped();
       journal_.add_reference(name, history_table(found));

@@ -118,9 +118,9 @@ class Designer {
         one_(asked.family.cases[of_case]),
         base_(one_.scenario),
         shapes_(shapes) {
-    traits_ = run::choose(opened(asked, of_case)).chosen.solver.model;
-    if (!scenario::traits(traits_).meshed())
-      traits_ = std::find_if(scenario::model_table.begin(), scenario::model_table.end(),
+    meshed_ = run::choose(opened(asked, of_case)).chosen.solver.model;
+    if (!scenario::traits(meshed_).meshed())
+      meshed_ = std::find_if(scenario::model_table.begin(), scenario::model_table.end(),
                              std::mem_fn(&scenario::ModelTraits::meshed))
                     ->of;
     integrator_ = word_of(base_integrator(one_));
@@ -140,8 +140,8 @@ class Designer {
     if (!compresses(base_)) integrators();
     if (!base_.uniform())
       for (const int rings : ring_counts)
-        add("rings", word_of(traits_) + ", " + std::to_string(rings) + " rings",
-            joined_to(traits(traits_), {"solver.rings=" + std::to_string(rings)}));
+        add("rings", word_of(meshed_) + ", " + std::to_string(rings) + " rings",
+            joined_to(settings_of(meshed_), {"solver.rings=" + std::to_string(rings)}));
     return variants_;
   }
 
@@ -161,7 +161,7 @@ class Designer {
   }
   [[nodiscard]] Settings given(Model model) const { return given(model, base_.contact.coupling); }
 
-  [[nodiscard]] Settings traits(Model model) const {
+  [[nodiscard]] Settings settings_of(Model model) const {
     return joined_to(given(model), {"solver.integrator=" + integrator_});
   }
 
@@ -184,11 +184,11 @@ class Designer {
   void formulas(Model model) { add("model x mesh", word_of(model), given(model)); }
 
   void meshes(Model model) {
-    add("model x mesh", word_of(model), traits(model));
+    add("model x mesh", word_of(model), settings_of(model));
     for (const double factor : mesh_factors)
       if (const std::string mesh = mesh_setting(base_, factor); !mesh.empty())
         add("model x mesh", word_of(model) + ", nodes x " + number_text(factor),
-            joined_to(traits(model), {mesh}));
+            joined_to(settings_of(model), {mesh}));
   }
 
   void couplings(Model model) {
@@ -212,7 +212,7 @@ class Designer {
     if (base_.uniform() || contact::mesh_is_tissue(base_.contact.coupling)) return true;
     try {
       const auto family = with_settings(
-          asked_, case_, {model_setting(traits_), "solver.integrator=" + word_of(moving)});
+          asked_, case_, {model_setting(meshed_), "solver.integrator=" + word_of(moving)});
       return scene::inertia_reaches_force(run::choose(family.cases.front(), shapes_).chosen);
     } catch (const InputError&) {
       return true;  // the variants say why there is no mesh
@@ -221,11 +221,11 @@ class Designer {
 
   void integrators() {
     if (!steps_matter()) return;
-    const std::string model = word_of(traits_);
+    const std::string model = word_of(meshed_);
     for (const Word& word : words::integrators) {
       const std::string method = word.word;
       const std::string name = model + ", " + method;
-      const Settings settings = joined_to(given(traits_), {"solver.integrator=" + method});
+      const Settings settings = joined_to(given(meshed_), {"solver.integrator=" + method});
       add("integrator x time step", name, settings);
       const std::optional<scene::TimePlan> plan = plan_of(settings);
       if (plan && cut_by_limit(settings, *plan))
@@ -268,8 +268,8 @@ class Designer {
   const scenario::Case& one_;
   const Scenario& base_;  // of one_
   scene::SpecimenShapes& shapes_;
-  Model traits_ =
-      scenario::strongest.of;  // the model of the groups integrator x time step and rings
+  // The model of the groups integrator x time step and rings.
+  Model meshed_ = scenario::strongest.of;
   std::string integrator_;
   std::vector<Variant> variants_;
   std::set<std::string> seen_;

@@ -284,7 +284,7 @@ void warn_of_error(Reference& reference) {
                                percent_text(worst->error / worst->force));
 }
 
-void warning(const Refinement& refinement, Reference& reference) {
+void say_how(const Refinement& refinement, Reference& reference) {
   std::string how = refinement.resolved() ? "coupled springs, contact resolved node by node"
                                           : "coupled springs with `consistent` contact";
   if (refinement.part() != Part::whole)
@@ -356,7 +356,7 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
           direction == Direction::surface ? other / row.forces.front() : row.forces.front() / other;
     }
   }
-  warning(refinement, reference);
+  say_how(refinement, reference);
   return reference;
 }
 

@@ -137,8 +137,8 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
                page::Page::Shown::folded);
   page.section("How it was made",
                page::making({.command = "palpate chart " + family.name + ".toml",
-                             .warning = "Costs are times of the machine that measured them: only "
-                                        "the errors repeat."},
+                             .note = "Costs are times of the machine that measured them: only "
+                                     "the errors repeat."},
                             {}, folder));
   page::write(std::move(page), folder);
 }

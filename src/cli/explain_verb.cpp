@@ -234,10 +234,7 @@ class Explanation {
     if (scene_.scenario.finger.moved)
       line("  press        on the top, since the middle of the body's box is beside the body");
     if (!scene_.specimen) top();
-    const geometry::SmoothSurface* const outer_surface =
-        scene_.specimen ? &*scene_.specimen->surface
-        : scene_.solid  ? scene_.solid->outer_surface.get()
-                        : nullptr;
+    const geometry::SmoothSurface* const outer_surface = scene_.outer_surface();
     if (outer_surface == nullptr) return;
     const scenario::Resolved& scenario = scene_.scenario;
     const double level = scene::base_level(scenario, outer_surface->surface());

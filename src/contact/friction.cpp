@@ -1,4 +1,4 @@
-// Coulomb's limit, and the solution of Cattaneo and Mindlin.
+// Coulomb's limit, and the inverse of Cattaneo's and Mindlin's solution.
 #include "contact/friction.h"
 
 #include <Eigen/LU>
@@ -24,15 +24,6 @@ Eigen::Matrix3d bounded(const Eigen::Matrix3d& beyond, double least) {
 
 double limit(double coefficient, double contact_force, double weight) {
   return coefficient * (contact_force + weight);
-}
-
-Stick stick(double tangential_force, double limit, double contact_radius, double shear_compliance) {
-  // c/a = (1 - Q/(mu P))^(1/3), dx = (3 mu P / 16 a) q [1 - (1 - Q/(mu P))^(2/3)]
-  const double core = std::cbrt(1.0 - tangential_force / limit);
-  return {.radius = contact_radius * core,
-          .displacement =
-              3.0 * limit / (16.0 * contact_radius) * shear_compliance * (1.0 - core * core),
-          .stiffness = 8.0 * contact_radius / shear_compliance};
 }
 
 Vec3 drag(Vec3& stretch, double limit, double contact_radius, double shear_compliance,

@@ -12,22 +12,13 @@ namespace palpate::contact::friction {
 // not part of F_c, otherwise 0.                  Chen 2007 eq. (4); docs/theory.md [friction]
 [[nodiscard]] double limit(double coefficient, double contact_force, double weight);
 
-// Stick before slip after Cattaneo and Mindlin, under a tangential force Q below the limit.
-// `shear_compliance` is q = (2 - nu_1)/G_1 + (2 - nu_2)/G_2, 1/Pa.
-//                                  K. L. Johnson 1985, sec. 7.2; docs/theory.md [cattaneo]
-struct Stick {
-  double radius = 0.0;        // m, of the sticking core
-  double displacement = 0.0;  // m, tangential, of the finger relative to the tissue
-  double stiffness = 0.0;     // N/m, 8 a / q, dQ/dx at Q = 0
-};
-[[nodiscard]] Stick stick(double tangential_force, double limit, double contact_radius,
-                          double shear_compliance);
-
-// The inverse, N: the tangential force on the tissue after the finger has moved by `stretch` (m,
-// tangential) relative to it. `beyond` (m/N, symmetric, tangential) times this force is what the
-// body moves beyond a half-space. Its largest value is the limit, at which the whole contact slips;
-// a longer stretch is shortened along the force to that of the limit. Zero, with the stretch reset,
-// if limit <= 0.                                                          docs/theory.md [stick]
+// Stick before slip after Cattaneo and Mindlin (K. L. Johnson 1985, sec. 7.2; docs/theory.md
+// [cattaneo]), N: the tangential force on the tissue after the finger has moved by `stretch` (m,
+// tangential) relative to it. `shear_compliance` is q = (2 - nu_1)/G_1 + (2 - nu_2)/G_2, 1/Pa.
+// `beyond` (m/N, symmetric, tangential) times this force is what the body moves beyond a
+// half-space. Its largest value is the limit, at which the whole contact slips; a longer stretch is
+// shortened along the force to that of the limit. Zero, with the stretch reset, if limit <= 0.
+//                                                                         docs/theory.md [stick]
 [[nodiscard]] Vec3 drag(Vec3& stretch, double limit, double contact_radius, double shear_compliance,
                         const Eigen::Matrix3d& beyond = Eigen::Matrix3d::Zero());
 

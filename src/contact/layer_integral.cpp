@@ -316,10 +316,6 @@ double LayerEquation::force_factor(double chi) const {
          (chi * chi * chi);
 }
 
-LayerSolution solve_layer(double ratio, const Layer& layer) {
-  return LayerEquation(layer, layer_resolution(ratio / layer.top())).solve(ratio);
-}
-
 std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
   std::vector<double> numbers(as_index(count));
   std::vector<double> weights(numbers.size());

@@ -111,9 +111,6 @@ class LayerEquation {
   Rule waves_;   // u over [0, 20 H / top]; the weights include 2/pi M(u)
 };
 
-// One solution with the resolution that the ratio a/H needs.
-[[nodiscard]] LayerSolution solve_layer(double ratio, const Layer& layer);
-
 // Points u_k of a quadrature int_0^inf share M(u) f(u) du = sum_k missing_k f(u_k).
 struct LayerWave {
   double number = 0.0;   // u = xi H

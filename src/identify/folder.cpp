@@ -57,14 +57,10 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
     page.headline(first.unknown.name() + " " + value, interval);
     lines.erase(lines.begin());
+  } else if (!found.combinations.empty()) {
+    const auto [known, its_interval] = estimate_texts(found.combinations.front());
+    page.headline(known, its_interval);
   }
-  for (const std::string& line : lines)  // inseparable unknowns: what is determined of them
-    if (const std::size_t at = line.find("Determined is "); at != std::string::npos) {
-      const std::string known = line.substr(at + 14, line.find(';', at) - at - 14);
-      const std::size_t end = std::min(known.find(", "), known.size());
-      page.headline(known.substr(0, end), known.substr(std::min(end + 2, known.size())));
-      break;
-    }
   page.answer(lines);
   page.section("Figures", page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;
@@ -80,9 +76,9 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   page.section("Every column",
                page::table_of_file("Estimates and both intervals", table, "identified.csv", most),
                page::Page::Shown::folded);
-  std::vector<std::string> warnings = found.notes;
-  warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
-  page.section("Notes", page::paragraphs(warnings));
+  std::vector<std::string> notes = found.notes;
+  notes.insert(notes.end(), found.warnings.begin(), found.warnings.end());
+  page.section("Notes", page::paragraphs(notes));
   page::Markup asked;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::string name = "scenario" + suffix_of(found, k) + ".toml";
@@ -92,8 +88,8 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   page.section("Scenario", asked);
   page.section("How it was made",
                page::making({.command = "palpate run scenario" + suffix_of(found, 0) + ".toml",
-                             .warning = "The command repeats the fitted curve. `palpate identify` "
-                                        "with the files below repeats the fit."},
+                             .note = "The command repeats the fitted curve. `palpate identify` "
+                                     "with the files below repeats the fit."},
                             inputs, folder));
   page::write(std::move(page), folder);
 }

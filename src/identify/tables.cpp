@@ -52,11 +52,10 @@ std::string change(double moved, const Identified& one) {
 std::string combination_sentence(const Identification& found, const Combination& one) {
   std::vector<std::string> names;
   for (const std::size_t i : one.of) names.push_back("`" + found.unknowns[i].unknown.name() + "`");
+  const auto [value, interval] = estimate_texts(one);
   return joined(names, " and ") +
          " are not separately identifiable: these data cannot tell them apart. Determined is " +
-         one.text + " = " + with_unit(one.estimate, one.unit) + ", 95 % " +
-         rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4) +
-         "; set one of them by `--set`.";
+         value + ", " + interval + "; set one of them by `--set`.";
 }
 
 std::string model_sentence(const Identification& found) {
@@ -159,6 +158,11 @@ EstimateTexts estimate_texts(const Identification& found, const Identified& one)
           "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
               (one.by_profile ? ", by profile)" : ")") +
               (one.at_bound ? "  on the edge of its range" : "")};
+}
+
+EstimateTexts estimate_texts(const Combination& one) {
+  return {one.text + " = " + with_unit(one.estimate, one.unit),
+          "95 % " + rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4)};
 }
 
 std::vector<std::string> identified_sentences(const Identification& found) {

@@ -39,6 +39,8 @@ struct EstimateTexts {
   std::string interval;
 };
 [[nodiscard]] EstimateTexts estimate_texts(const Identification& found, const Identified& one);
+// The same of what is determined of unknowns that are not: `E / (1 - nu^2) = 66.9 kPa`.
+[[nodiscard]] EstimateTexts estimate_texts(const Combination& one);
 
 // Lines for stdout: estimates, inseparable unknowns, model, residuals and effect of
 // the contact point.

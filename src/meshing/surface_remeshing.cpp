@@ -240,48 +240,48 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   const double volume = geometry::enclosed(surface).volume;
   const geometry::BoxTree original(surface);
   const std::vector<double> asked(surface.vertices.size(), spacing);
-  // Nothing where the triangles are no fewer than `most`, which ends the tries.
-  const auto tried = [&](Attempt& attempt, bool by_place,
-                         std::size_t most) -> std::optional<std::optional<Remeshed>> {
-    std::vector<Vec3> wrong;
-    if (std::optional<Surface> made = attempt.made(); made && !made->triangles.empty()) {
-      flatten_sides(surface, std::ranges::max(attempt.spacing), *made);
-      const std::size_t count = made->triangles.size();
-      if (count >= most) return std::optional<Remeshed>();
-      double distance = farthest(*made, original, limit, wrong);
-      distance = std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, wrong));
-      if (by_place) add_crossings(*made, wrong);
-      if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
-          std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
-          closed(*made))
-        return Remeshed{std::move(*made), distance};
-      // The next try would have too many, and take longer than all before.
-      if (!by_place && least_growth * static_cast<double>(count) >= static_cast<double>(most))
-        return std::optional<Remeshed>();
+  bool over = false;  // shorter spacings would have too many triangles
+  const auto found_in = [&](int tries, Attempt& attempt, bool by_place,
+                            std::size_t most) -> std::optional<Remeshed> {
+    for (int i = 0; i < tries && !over; ++i) {
+      std::vector<Vec3> wrong;
+      if (std::optional<Surface> made = attempt.made(); made && !made->triangles.empty()) {
+        flatten_sides(surface, std::ranges::max(attempt.spacing), *made);
+        const std::size_t count = made->triangles.size();
+        over = count >= most;
+        if (over) break;
+        double distance = farthest(*made, original, limit, wrong);
+        distance = std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, wrong));
+        if (by_place) add_crossings(*made, wrong);
+        if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
+            std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
+            closed(*made))
+          return Remeshed{std::move(*made), distance};
+        // The next try would take longer than all before.
+        over = !by_place && least_growth * static_cast<double>(count) >= static_cast<double>(most);
+      }
+      if (by_place && !wrong.empty())
+        attempt.shorten(wrong);
+      else
+        attempt.shorten();
     }
-    if (by_place && !wrong.empty())
-      attempt.shorten(wrong);
-    else
-      attempt.shorten();
     return std::nullopt;
   };
-  const auto by_place = [&]() -> std::optional<Remeshed> {
+  const auto by_place = [&] {
     Attempt attempt{surface, original, asked};
-    for (int i = 0; i < 16; ++i)
-      if (auto ended = tried(attempt, true, given)) return std::move(*ended);
-    return std::nullopt;
+    return found_in(16, attempt, true, given);
   };
   if (sharp) return by_place();
   Attempt attempt{surface, original, asked, count_needles(surface) > 0};
   const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
-  for (int i = 0; i < 8; ++i) {
-    // Below half of what was asked for, a surface with thin limbs has many more triangles than it
-    // needs where it has none.
-    if (i == 3 && looser <= 1.0)
-      if (auto found = by_place()) return found;
-    if (auto ended = tried(attempt, false, most)) return std::move(*ended);
-  }
-  return std::nullopt;
+  if (auto found = found_in(3, attempt, false, most)) return found;
+  if (over) return std::nullopt;
+  // Below half of what was asked for, a surface with thin limbs has many more triangles than it
+  // needs where it has none.
+  if (looser <= 1.0)
+    if (auto found = by_place()) return found;
+  over = false;
+  return found_in(5, attempt, false, most);
 }
 
 }  // namespace palpate::meshing

@@ -231,7 +231,7 @@ Markup making(const Making& made, const std::vector<HashedFile>& inputs,
       "p", text("This repeats the result in this folder, with the same bytes on "
                 "every x86-64 processor, by the same build of palpate " PALPATE_VERSION ":"));
   all += element("pre", element("code", made.command), {{"tabindex", "0"}});
-  if (!made.warning.empty()) all += paragraphs({made.warning});
+  if (!made.note.empty()) all += paragraphs({made.note});
   record::Table hashes{{"file", "SHA-256"}, {}};
   for (const HashedFile& file : inputs) hashes.rows.push_back({file.path, file.sha256});
   if (!hashes.rows.empty()) all += table("What went in", hashes);

@@ -73,7 +73,7 @@ struct ShownFigure {
 // How the result was made and how to repeat it: program, command, and the SHA-256 of the files.
 struct Making {
   std::string command = {};  // that repeats the result, run in its folder
-  std::string warning = {};  // a sentence; may be empty
+  std::string note = {};     // a sentence; may be empty
 };
 [[nodiscard]] Markup making(const Making& made, const std::vector<HashedFile>& inputs,
                             const WholeFolder& folder);

@@ -578,9 +578,9 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   page.section(
       "How it was made",
       page::making({.command = "palpate run scenario.toml",
-                    .warning = live ? "A live run follows its device, so that this command repeats "
-                                      "the loading history and not the motion of the device."
-                                    : ""},
+                    .note = live ? "A live run follows its device, so that this command repeats "
+                                   "the loading history and not the motion of the device."
+                                 : ""},
                    inputs, folder),
       folded);
   page::write(std::move(page), folder);

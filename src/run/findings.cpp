@@ -121,10 +121,7 @@ class Findings {
           "the middle of the body's box is beside the body, so that the finger presses its top; "
           "set `finger.at` for another place");
     const scene::SurfaceTouch& touch = scene_.choice.touch;
-    const geometry::SmoothSurface* const outer_surface =
-        scene_.specimen ? &*scene_.specimen->surface
-        : scene_.solid  ? scene_.solid->outer_surface.get()
-                        : nullptr;
+    const geometry::SmoothSurface* const outer_surface = scene_.outer_surface();
     if (outer_surface == nullptr || scenario.uniform() || !touch.known() ||
         !touch.size.allFinite() || !scenario.tissue.held_from_below())
       return;

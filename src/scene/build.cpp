@@ -533,4 +533,9 @@ Finger make_finger(const scenario::Resolved& scenario) {
   return finger;
 }
 
+const geometry::SmoothSurface* Scene::outer_surface() const {
+  if (specimen) return &*specimen->surface;
+  return solid ? solid->outer_surface.get() : nullptr;
+}
+
 }  // namespace palpate::scene

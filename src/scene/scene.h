@@ -193,6 +193,8 @@ struct Scene {
   std::unique_ptr<SolidBody> solid;            // null for the others
   // The surface of the file; null for other shapes. A mesh may have a coarser one.
   std::shared_ptr<const geometry::SmoothSurface> of_file;
+  // The surface that is pressed; null without a mesh.
+  [[nodiscard]] const geometry::SmoothSurface* outer_surface() const;
   SurfaceDisplacementStore* surface_displacements =
       nullptr;                                   // of cases that share bodies; outlives the scene
   integrate::KnownModes* known_modes = nullptr;  // of a body that is run again; outlives the scene

@@ -49,18 +49,6 @@ struct Stretched {
 
 }  // namespace
 
-void elongations(const Network& network, Kinematics kinematics, const Vector& displacement,
-                 std::span<double> elongation) {
-  for (std::size_t s = 0; s < network.ends.size(); ++s) {
-    const auto [a, b] = network.ends[s];
-    if (kinematics == Kinematics::linear) {
-      elongation[s] = network.direction[s].dot(at(displacement, b) - at(displacement, a));
-    } else {
-      elongation[s] = stretched(network, kinematics, displacement, s).elongation;
-    }
-  }
-}
-
 void tensions(const Network& network, std::span<const double> elongation,
               std::span<double> tension) {
   for (std::size_t s = 0; s < tension.size(); ++s)
@@ -78,38 +66,6 @@ void tensions(const Network& network, std::span<const double> elongation,
       dilation += volume.dilation[k] * elongation[as_index(volume.springs[k])];
     for (std::size_t k = 0; k < volume.springs.size(); ++k)
       tension[as_index(volume.springs[k])] += volume.stiffness * dilation * volume.dilation[k];
-  }
-}
-
-double work(const Network& network, std::span<const double> elongation,
-            std::span<const double> along) {
-  std::vector<double> tension;
-  return work(network, elongation, along, tension);
-}
-
-double work(const Network& network, std::span<const double> elongation,
-            std::span<const double> along, std::vector<double>& tension) {
-  tension.resize(elongation.size());
-  tensions(network, elongation, tension);
-  double sum = 0.0;
-  for (std::size_t s = 0; s < tension.size(); ++s) sum += tension[s] * along[s];
-  return sum;
-}
-
-void gather_forces(const Network& network, Kinematics kinematics, const Vector& displacement,
-                   std::span<const double> tension, Vector& force) {
-  force.setZero(3 * network.nodes());
-  for (std::size_t s = 0; s < network.ends.size(); ++s) {
-    const auto [a, b] = network.ends[s];
-    Vec3 pull;
-    if (kinematics == Kinematics::linear) {
-      pull = tension[s] * network.direction[s];
-    } else {
-      const Stretched now = stretched(network, kinematics, displacement, s);
-      pull = tension[s] * now.per_length * now.span;
-    }
-    force.segment<3>(3 * a) -= pull;
-    force.segment<3>(3 * b) += pull;
   }
 }
 

@@ -19,25 +19,9 @@ using Vector = Eigen::VectorXd;
 
 // Displacements and forces are vectors with three entries (x, y, z) per node.
 
-// The elongations e_s (m) under a displacement u (m).                docs/theory.md [elongation]
-void elongations(const Network& network, Kinematics kinematics, const Vector& displacement,
-                 std::span<double> elongation);
-
 // The tensions (N) of springs with these elongations (m). Overwrites `tension`.
 void tensions(const Network& network, std::span<const double> elongation,
               std::span<double> tension);
-
-// The sum over springs of tension(elongation) times `along`, J; symmetric in both arguments.
-[[nodiscard]] double work(const Network& network, std::span<const double> elongation,
-                          std::span<const double> along);
-// The same with a buffer for the tensions.
-[[nodiscard]] double work(const Network& network, std::span<const double> elongation,
-                          std::span<const double> along, std::vector<double>& tension);
-
-// f = sum over springs of tension (N) times the spring's direction, the gradient of the elastic
-// energy: an external load of +f is in equilibrium with it. Overwrites `force`.
-void gather_forces(const Network& network, Kinematics kinematics, const Vector& displacement,
-                   std::span<const double> tension, Vector& force);
 
 // The directions of the spring forces: unit vectors (linear), or span / rest length (non-linear).
 void directions(const Network& network, Kinematics kinematics, const Vector& displacement,

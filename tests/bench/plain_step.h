@@ -10,6 +10,7 @@
 #include "geometry/cuboid.h"
 #include "integrate/body.h"
 #include "meshing/tetgen.h"
+#include "plain_springs.h"
 #include "tissue/coupled.h"
 #include "tissue/springs.h"
 #include "tissue/stiffness.h"
@@ -46,10 +47,10 @@ class PlainStep {
 
   void step(integrate::State& state, const Vector& load) {
     const tissue::Network& network = *form_.network;
-    tissue::elongations(network, form_.kinematics, state.displacement, elongation_);
+    test::elongations(network, form_.kinematics, state.displacement, elongation_);
     test::elastic_elongations(form_.law, state.memory, elongation_, effective_);
     tissue::tensions(network, effective_, tension_);
-    tissue::gather_forces(network, form_.kinematics, state.displacement, tension_, force_);
+    test::gather_forces(network, form_.kinematics, state.displacement, tension_, force_);
     Vector right = 2.0 * dt_ * dt_ * (load - force_);
     right += 2.0 * mass_.cwiseProduct(moved_);
     if (form_.law.kind == Viscosity::kelvin_voigt) {
@@ -64,7 +65,7 @@ class PlainStep {
     state.displacement += moved_;
     state.velocity = moved_ / dt_;
     state.time += dt_;
-    tissue::elongations(network, form_.kinematics, state.displacement, elongation_);
+    test::elongations(network, form_.kinematics, state.displacement, elongation_);
     tissue::remember(form_.law, steps_, elongation_, state.memory);
   }
 

@@ -100,7 +100,7 @@ TEST(ThinLayer, BecomesABedOfSprings) {
   EXPECT_NEAR(first / second, 4.0, 0.5);
   EXPECT_NEAR(second / third, 4.0, 0.3);
   // Under a sphere h = a^2 / (2R).
-  EXPECT_NEAR(solve_layer(40.0, sliding).depth, 0.5, 0.005);
+  EXPECT_NEAR(test::solve_layer(40.0, sliding).depth, 0.5, 0.005);
 }
 
 // One that keeps its volume must flow outwards between base and punch. By lubrication theory, with

@@ -9,6 +9,7 @@
 #include "contact/hertz.h"
 #include "every.h"
 #include "mechanics/pressed_mesh.h"
+#include "mindlin.h"
 #include "run/family.h"
 #include "run_text.h"
 #include "scenario/words.h"
@@ -154,8 +155,8 @@ TEST(Slide, SticksAsCattaneoAndMindlinSayAndThenSlips) {
           beyond * limit;
       if (row.slide < 0.999 * whole) {
         ++sticking;
-        const auto stick = contact::friction::stick(row.tangential, limit, row.contact_radius,
-                                                    scene.finger.shear_compliance);
+        const auto stick =
+            test::stick(row.tangential, limit, row.contact_radius, scene.finger.shear_compliance);
         // The axes of a body beside its middle are not exactly along the slide.
         EXPECT_NEAR((stick.displacement + beyond * row.tangential) / row.slide, 1.0,
                     beyond == 0.0 ? 1e-9 : 1e-5)
@@ -176,8 +177,7 @@ TEST(Slide, StickHasTheIndependentNumbers) {
   const double force =
       contact::hertz::force(1e-3, scene.finger.sphere_radius, scene.finger.sphere_modulus);
   const double a = contact::hertz::contact_radius(1e-3, scene.finger.sphere_radius);
-  const auto stick =
-      contact::friction::stick(0.25 * force, 0.5 * force, a, scene.finger.shear_compliance);
+  const auto stick = test::stick(0.25 * force, 0.5 * force, a, scene.finger.shear_compliance);
   test::expect_case("friction-01", stick.radius / a);
   test::expect_case("friction-02", stick.displacement);
 }

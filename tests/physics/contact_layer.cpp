@@ -1,5 +1,6 @@
 // A sphere on a layer: its pressure carries the force and bends the surfaces to fit one another.
 #include "contact/layer.h"
+#include "layer_at_chi.h"
 
 #include <gtest/gtest.h>
 
@@ -93,7 +94,7 @@ TEST(LayerPressure, MakesLayerAndFingerFit) {
   for (const Layer& layer : {bonded(0.3), bonded(0.5), frictionless, bonded(0.45, 0.6)}) {
     const double ratio = 1.3;  // a / H
     const double lambda_2 = layer.share, lambda_1 = 1.0 - layer.share;
-    const LayerSolution contact = solve_layer(ratio, layer);
+    const LayerSolution contact = test::solve_layer(ratio, layer);
     const auto p = [&](double r) {
       return 4.0 / 3.0 * contact.force / pi * contact.pressure.at(r);
     };

@@ -1,5 +1,6 @@
 // Coupled springs are elasticity: the linear finite element, the patch test, St Venant and
 // Kirchhoff's law, forces from energies.
+#include "plain_springs.h"
 #include "tissue/coupled.h"
 
 #include <gtest/gtest.h>
@@ -269,7 +270,7 @@ TEST(Coupled, TangentIsTheSlopeOfTheForce) {
         const Network network = test::coupled_network(mesh, {{3e4, 0.45}}, volume, own_share);
         std::vector<double> elongation(network.ends.size());
         std::vector<double> tension(network.ends.size());
-        tissue::elongations(network, kinematics, place, elongation);
+        test::elongations(network, kinematics, place, elongation);
         tissue::tensions(network, elongation, tension);
         const Eigen::MatrixXd tangent =
             test::dense(tissue::tangent(network, kinematics, place, 1.0, tension)
@@ -297,7 +298,7 @@ TEST(Coupled, TangentStaysPositiveDefiniteUnderPressure) {
     const Network network = test::coupled_network(mesh, {{3e4, 0.45}}, volume, own_share);
     std::vector<double> elongation(network.ends.size());
     std::vector<double> tension(network.ends.size());
-    tissue::elongations(network, Kinematics::squared, squeezed, elongation);
+    test::elongations(network, Kinematics::squared, squeezed, elongation);
     tissue::tensions(network, elongation, tension);
     std::vector<char> held = test::nothing_held(network);
     for (const int node : geometry::nodes_at_height(mesh, 0.0))

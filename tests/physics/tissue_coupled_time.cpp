@@ -10,6 +10,7 @@
 #include "base/index.h"
 #include "jittered_block.h"
 #include "plain_energy.h"
+#include "plain_springs.h"
 #include "tissue/stable_step.h"
 #include "tissue/stiffness.h"
 
@@ -82,17 +83,17 @@ struct Statics {
     std::vector<double> elongation(network->ends.size());
     std::vector<double> effective(network->ends.size());
     std::vector<double> tension(network->ends.size());
-    tissue::elongations(*network, Kinematics::linear, at, elongation);
+    test::elongations(*network, Kinematics::linear, at, elongation);
     tissue::effective_elongations(*law, steps, memory, elongation, effective);
     tissue::tensions(*network, effective, tension);
     Vector sum;
-    tissue::gather_forces(*network, Kinematics::linear, at, tension, sum);
+    test::gather_forces(*network, Kinematics::linear, at, tension, sum);
     return sum;
   }
 
   void remember(std::span<const MemoryStep> steps) {
     std::vector<double> elongation(network->ends.size());
-    tissue::elongations(*network, Kinematics::linear, displacement, elongation);
+    test::elongations(*network, Kinematics::linear, displacement, elongation);
     tissue::remember(*law, steps, elongation, memory);
   }
 
@@ -228,7 +229,7 @@ TEST(CoupledInTime, EnergyNeverGrowsUnloaded) {
         Vector u = test::scattered_displacement(mesh, 3e-4);
         Vector v = -100.0 * test::scattered_displacement(mesh, 1e-3);
         std::vector<double> memory(tissue::memory_size(law) * network.ends.size(), 0.0);
-        tissue::elongations(network, kinematics, u, elongation);
+        test::elongations(network, kinematics, u, elongation);
         const std::vector<MemoryStep> at_once(steps.size(), MemoryStep::at_once());
         tissue::remember(law, at_once, elongation, memory);
         const auto energy = [&] {
@@ -241,11 +242,11 @@ TEST(CoupledInTime, EnergyNeverGrowsUnloaded) {
           Vector end = u + dt * v;
           double residual = 1.0;
           for (int newton = 0; newton < 50 && residual > 1e-11; ++newton) {
-            tissue::elongations(network, kinematics, end, elongation);
+            test::elongations(network, kinematics, end, elongation);
             tissue::effective_elongations(law, steps, memory, elongation, effective);
             tissue::tensions(network, effective, tension);
             Vector force;
-            tissue::gather_forces(network, kinematics, end, tension, force);
+            test::gather_forces(network, kinematics, end, tension, force);
             force += mass.cwiseProduct(end - u - dt * v) / (dt * dt) +
                      drag * mass.cwiseProduct(end - u) / dt;
             SplitMatrix matrix = tissue::tangent(network, kinematics, end,
@@ -262,7 +263,7 @@ TEST(CoupledInTime, EnergyNeverGrowsUnloaded) {
           ASSERT_LT(residual, 1e-10) << n;
           v = (end - u) / dt;
           u = end;
-          tissue::elongations(network, kinematics, u, elongation);
+          test::elongations(network, kinematics, u, elongation);
           tissue::remember(law, steps, elongation, memory);
           const double now = energy();
           EXPECT_LE(now, before * (1.0 + 1e-12)) << n;  // rounding

@@ -9,6 +9,7 @@
 #include "base/dense.h"
 #include "base/index.h"
 #include "jittered_block.h"
+#include "plain_springs.h"
 #include "tissue/stiffness.h"
 
 namespace palpate {
@@ -68,7 +69,7 @@ TEST(Volume, ChangesAsTheBodyDoes) {
   EXPECT_EQ(network.volumes.size(), mesh.nodes.size() + 12);  // 12 nodes touch both regions
   std::vector<double> elongation(network.ends.size());
   const Vector even = test::linear_displacement(mesh, gradient);
-  tissue::elongations(network, Kinematics::linear, even, elongation);
+  test::elongations(network, Kinematics::linear, even, elongation);
   std::vector<double> modulus;
   for (const Isotropic& tissue : tissues) modulus.push_back(tissue::volume_modulus(tissue));
   double wanted_sum = 0.0;
@@ -99,7 +100,7 @@ TEST(Volume, AveragesLoseNothing) {
   }
   const Network network = hybrid(mesh, none, {tissue}, Volume::nodal);
   std::vector<double> elongation(network.ends.size());
-  tissue::elongations(network, Kinematics::linear, moved, elongation);
+  test::elongations(network, Kinematics::linear, moved, elongation);
   double sum = 0.0;
   for (const auto& volume : network.volumes)
     for (std::size_t k = 0; k < volume.springs.size(); ++k)

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "mindlin.h"
+
 namespace palpate::contact::friction {
 namespace {
 
@@ -35,7 +37,7 @@ TEST(Friction, AddsTheBodysDisplacementToMindlins) {
       const Vec3 stretch = part * limit * stick_compliance * Vec3(0.8, 0.6, 0.0);
       const Vec3 force = pulled(stretch, body);
       ASSERT_LT(force.norm(), limit);
-      const Stick half_space = stick(force.norm(), limit, radius, softness);
+      const test::Stick half_space = test::stick(force.norm(), limit, radius, softness);
       const Vec3 moved = half_space.displacement * force.normalized() + body * force;
       // stick() subtracts nearly equal numbers.
       EXPECT_LT((moved - stretch).norm(), (1e-12 + 1e-15 / part) * stretch.norm()) << part;

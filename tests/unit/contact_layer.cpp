@@ -96,13 +96,13 @@ TEST(LayerCases, FirstCoefficient) {
 // An axisymmetric finite-element program at a/H = 1/2: 1.591, 1.857 (at nu = 0.4999, as near as it
 // goes to 1/2) and 1.4815. Its own error is 1e-4, and half a unit of the last printed digit.
 TEST(LayerCases, FiniteElements) {
-  EXPECT_NEAR(solve_layer(0.5, bonded(0.3)).force_factor(), 1.591, 1.6e-4 + 5e-4);
-  EXPECT_NEAR(solve_layer(0.5, bonded(0.4999)).force_factor(), 1.857, 1.9e-4 + 5e-4);
-  EXPECT_NEAR(solve_layer(0.5, frictionless()).force_factor(), 1.4815, 1.5e-4 + 5e-5);
+  EXPECT_NEAR(test::solve_layer(0.5, bonded(0.3)).force_factor(), 1.591, 1.6e-4 + 5e-4);
+  EXPECT_NEAR(test::solve_layer(0.5, bonded(0.4999)).force_factor(), 1.857, 1.9e-4 + 5e-4);
+  EXPECT_NEAR(test::solve_layer(0.5, frictionless()).force_factor(), 1.4815, 1.5e-4 + 5e-5);
   // The same three by an integral equation solved elsewhere, to four digits.
-  EXPECT_NEAR(solve_layer(0.5, bonded(0.3)).force_factor(), 1.5909, 5e-5);
-  EXPECT_NEAR(solve_layer(0.5, bonded(0.4999)).force_factor(), 1.8569, 5e-5);
-  EXPECT_NEAR(solve_layer(0.5, frictionless()).force_factor(), 1.4816, 5e-5);
+  EXPECT_NEAR(test::solve_layer(0.5, bonded(0.3)).force_factor(), 1.5909, 5e-5);
+  EXPECT_NEAR(test::solve_layer(0.5, bonded(0.4999)).force_factor(), 1.8569, 5e-5);
+  EXPECT_NEAR(test::solve_layer(0.5, frictionless()).force_factor(), 1.4816, 5e-5);
 }
 
 double polynomial(const std::vector<double>& coefficients, double x) {

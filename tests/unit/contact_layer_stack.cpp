@@ -27,8 +27,8 @@ TEST(LayerStack, OfOneTissueIsOneLayer) {
     for (const double nu : {0.0, 0.33, 0.5}) {
       const Layer one{.poisson_ratio = nu, .base = base};
       for (const double ratio : {0.05, 0.3, 1.0}) {
-        const LayerSolution want = solve_layer(ratio, one);
-        const LayerSolution got = solve_layer(ratio, alike(nu, base));
+        const LayerSolution want = test::solve_layer(ratio, one);
+        const LayerSolution got = test::solve_layer(ratio, alike(nu, base));
         // 9e-8: what the four waves leave near u = 0.
         EXPECT_NEAR(got.depth, want.depth, 2e-7) << nu << " " << ratio;
         EXPECT_NEAR(got.force, want.force, 2e-7) << nu << " " << ratio;
@@ -46,9 +46,9 @@ TEST(LayerStack, OnARigidLayerIsTheTopOne) {
           Layer{.poisson_ratio = nu, .below = {{0.4, 1e9, 0.3}, {0.2, 1e9, 0.2}}},
           Layer{.poisson_ratio = nu, .base = LayerBase::frictionless, .below = {{0.6, 1e9, 0.3}}}})
       for (const double ratio : {0.1, 0.5, 1.5})  // a over the top layer, 0.4 H
-        EXPECT_NEAR(
-            solve_layer(0.4 * ratio, stack).force_factor() / solve_layer(ratio, top).force_factor(),
-            1.0, 1e-7)
+        EXPECT_NEAR(test::solve_layer(0.4 * ratio, stack).force_factor() /
+                        test::solve_layer(ratio, top).force_factor(),
+                    1.0, 1e-7)
             << nu << " " << ratio;
   }
 }

@@ -7,6 +7,7 @@
 #include "contact/friction.h"
 #include "contact/hertz.h"
 #include "material/tissue_table.h"
+#include "mindlin.h"
 
 namespace palpate {
 namespace {
@@ -143,9 +144,8 @@ TEST(FrictionCases, CattaneoMindlin) {
   };
   const double normal = force("skin", 1e-3);
   const double limit = contact::friction::limit(0.5, normal, 0.0);
-  const auto stick =
-      contact::friction::stick(0.5 * limit, limit, hertz::contact_radius(1e-3, finger_radius),
-                               shear(elastic("finger")) + shear(elastic("skin")));
+  const auto stick = test::stick(0.5 * limit, limit, hertz::contact_radius(1e-3, finger_radius),
+                                 shear(elastic("finger")) + shear(elastic("skin")));
   expect_case("friction-01", stick.radius / hertz::contact_radius(1e-3, finger_radius));
   expect_case("friction-02", stick.displacement);
 }
@@ -156,7 +156,7 @@ TEST(Friction, DragIsTheInverseOfStick) {
   const double compliance = 1e-4;
   const Vec3 along = Vec3(3.0, -4.0, 0.0) / 5.0;
   for (const double force : {0.0, 0.1, 1.0, 1.99}) {
-    Vec3 stretch = contact::friction::stick(force, limit, radius, compliance).displacement * along;
+    Vec3 stretch = test::stick(force, limit, radius, compliance).displacement * along;
     const Vec3 before = stretch;
     const Vec3 drag = contact::friction::drag(stretch, limit, radius, compliance);
     EXPECT_NEAR((drag - force * along).norm(), 0.0, 1e-12 * limit);  // rounding of a cube root
@@ -165,7 +165,7 @@ TEST(Friction, DragIsTheInverseOfStick) {
   Vec3 far = 1.0 * along;  // m
   EXPECT_NEAR((contact::friction::drag(far, limit, radius, compliance) - limit * along).norm(), 0.0,
               1e-15 * limit);  // rounding of a unit vector
-  const double slip = contact::friction::stick(limit, limit, radius, compliance).displacement;
+  const double slip = test::stick(limit, limit, radius, compliance).displacement;
   EXPECT_NEAR(far.norm(), slip, 1e-15 * slip);  // rounding
   EXPECT_EQ(contact::friction::drag(far, 0.0, radius, compliance), Vec3::Zero());
   EXPECT_EQ(far, Vec3::Zero());

@@ -1,5 +1,6 @@
 // The force of a body by one matrix is that of its springs with a memory of their own, for every
 // law and coupling, through steps; so are its energies.
+#include "plain_springs.h"
 #include "scene/spring_body.h"
 
 #include <gtest/gtest.h>
@@ -66,15 +67,15 @@ struct Plain {
   std::vector<double> tension = elongation;
 
   void remember(const Vector& u, std::span<const MemoryStep> steps, std::vector<double>& memory) {
-    tissue::elongations(network, kinematics, u, elongation);
+    test::elongations(network, kinematics, u, elongation);
     tissue::remember(law, steps, elongation, memory);
   }
   Vector force(const Vector& u, std::span<const double> memory) {
-    tissue::elongations(network, kinematics, u, elongation);
+    test::elongations(network, kinematics, u, elongation);
     test::elastic_elongations(law, memory, elongation, effective);
     tissue::tensions(network, effective, tension);
     Vector force;
-    tissue::gather_forces(network, kinematics, u, tension, force);
+    test::gather_forces(network, kinematics, u, tension, force);
     return force;
   }
 };

@@ -1,4 +1,5 @@
 // Springs a few at a time do what the plain loops say.
+#include "plain_springs.h"
 #include "tissue/spring_loop.h"
 
 #include <gtest/gtest.h>
@@ -53,14 +54,14 @@ TEST_P(SpringLoopOf, elongations_to_the_bit_and_pulls) {
   Vector elongation(network_.springs());
   Vector want(network_.springs());
   loop_.elongations(u, {elongation.data(), network_.ends.size()});
-  tissue::elongations(network_, GetParam(), u, {want.data(), network_.ends.size()});
+  test::elongations(network_, GetParam(), u, {want.data(), network_.ends.size()});
   EXPECT_EQ(elongation, want);
   const Vector tension = scattered(network_.springs(), 1.0, dice_);
   const std::span<const double> tensions(tension.data(), network_.ends.size());
   Vector force;
   loop_.pull(u, tensions, force);
   Vector plain;
-  tissue::gather_forces(network_, GetParam(), u, tensions, plain);
+  test::gather_forces(network_, GetParam(), u, tensions, plain);
   expect_close(force, plain);
 }
 
@@ -72,7 +73,7 @@ TEST_P(SpringLoopOf, rates_along_directions_that_have_turned) {
   tissue::Network turned = network_;
   tissue::directions(network_, GetParam(), u, turned.direction);
   Vector want(network_.springs());
-  tissue::elongations(turned, Kinematics::linear, v, {want.data(), network_.ends.size()});
+  test::elongations(turned, Kinematics::linear, v, {want.data(), network_.ends.size()});
   expect_close(rate, want);
 }
 
