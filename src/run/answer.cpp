@@ -151,7 +151,7 @@ class Words {
     const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep) + e_.deep_error;
     const double most = std::max({std::abs(size), waves, deep, e_.edge});
     if (most == waves && waves > 0.0)
-      return off + ": waves in the tissue add " + percent_text(waves) + " of force at this speed.";
+      return off + ": inertia changes the force by " + percent_text(waves) + " at this speed.";
     if (most == e_.edge && most > 0.0)
       return off + ": an edge is " +
              rounded_text(scene_.choice.touch.to_edge / e_.contact_radius, 2) +
@@ -350,9 +350,9 @@ class AllNeglected {
   void waves() {
     if (!waves_matter()) return;
     const std::string when = would(e_.inertia) + " at this speed";
-    if (!traits_.inertia) return omit("waves in the tissue", e_.inertia, when, mesh_with_waves());
+    if (!traits_.inertia) return omit("inertia of the tissue", e_.inertia, when, mesh_with_waves());
     if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
-    omit("waves in the tissue", e_.inertia, when,
+    omit("inertia of the tissue", e_.inertia, when,
          "take an integrator with inertia and " + viscosity_with_waves() +
              ", or `contact.coupling = \"resolved\"`");
   }

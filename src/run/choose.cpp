@@ -73,8 +73,7 @@ constexpr auto question_table = std::to_array<QuestionRow>({
      "one curvature is enough", "both curvatures matter, the contact is elliptic"},
     {"time_dependent", "viscosity", "increase of the force by viscosity",
      "the press is slow against the tissue's time constant", ""},
-    {"inertia", "inertia", "increase of the force by waves", "the loading is slow against waves",
-     ""},
+    {"inertia", "inertia", "change of the force by inertia", "the loading is slow", ""},
     {"shape_or_inclusion", "formula", "", "", ""},
     {"family", "family", "", "",
      "another case needs it, and cases that are compared take one model"},
@@ -251,6 +250,8 @@ class Chooser {
       // What an elastic finger takes of the depth knows nothing of the body.
       const double change = e.tissue_share * found.change;
       e.size_error = e.tissue_share * found.error;
+      e.swing = swing(found, e, asked_.tissue);
+      e.inertia += e.swing;
       e.measured = true;
       if (std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape)) {
         const bool layered = !asked_.regions.empty();

@@ -98,6 +98,25 @@ double formula(const scene::Scene& scene, const scene::SurfaceTouch& touch, doub
   return static_cast<double>(scene.finger.centres.size()) * normal.z() * law->point.force(depth);
 }
 
+// The depth of the contact over the displacement where the force is 1 + change times that of the
+// formula, which goes with the power 3/2 of the depth.
+double depth_share(double change) { return std::pow(1.0 + change, 2.0 / 3.0); }
+
+// The volume with the kinetic energy of the body where what it yields beyond the formula changes at
+// unit speed, m^3; 0 where it is stiffer, and where spheres dent it for each other.
+double moving_volume(mechanics::PressedMesh& mesh, const mechanics::Touch& pressed, double yields,
+                     const scene::Scene& scene) {
+  if (!(yields > 0.0) || each_presses(scene.scenario)) return 0.0;
+  mesh.set_step(1.0);
+  if (mesh.move(pressed)) return 0.0;
+  const integrate::Vector moved = mesh.displacement();
+  const std::vector<double>& masses = scene.specimen->network.node_mass;
+  double sum = 0.0;
+  for (std::size_t n = 0; n < masses.size(); ++n)
+    sum += masses[n] * moved.segment<3>(3 * static_cast<Eigen::Index>(n)).squaredNorm();
+  return sum / (scene.scenario.tissue.density * yields * yields);
+}
+
 SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
                  const scene::SurfaceTouch& touch, scene::SpecimenShapes& shapes) {
   scenario::Family family;
@@ -122,6 +141,8 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
       const double change = simple > 0.0 ? pressed.normal_force() / simple - 1.0 : 0.0;
       if (found.nodes == 0 || std::abs(change) > std::abs(found.change)) found.change = change;
       found.error = std::max(found.error, mechanics::mesh_error(*contact));
+      found.moving = std::max(
+          found.moving, moving_volume(mesh, pressed, (1.0 - depth_share(change)) * travel, scene));
       found.nodes = scene.specimen->network.nodes();
       break;
     }
@@ -157,21 +178,39 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
   const double share = (ratio - *(above - 1)) / (*above - *(above - 1));
   const auto at = [&](double known) {
     const scenario::Resolved trial = trial_of(scenario, touch, known);
-    const auto& numbers = shapes.kept_numbers(key_of(trial, touch), [&]() -> std::array<double, 3> {
+    const auto& numbers = shapes.kept_numbers(key_of(trial, touch), [&]() -> std::array<double, 4> {
       const SizeEffect found = press(trial, folder, touch, shapes);
-      return {found.change, found.error, static_cast<double>(found.nodes)};
+      return {found.change, found.error, found.moving, static_cast<double>(found.nodes)};
     });
     // Effects of size grow with the radius of the contact.
     const double narrower =
         std::sqrt(wanted / std::get<scenario::Indent>(trial.steps.front()).to.value);
-    return SizeEffect{narrower * numbers[0], narrower * numbers[1], static_cast<int>(numbers[2])};
+    return SizeEffect{narrower * numbers[0], narrower * numbers[1], numbers[2],
+                      static_cast<int>(numbers[3])};
   };
   const SizeEffect low = share < 1.0 ? at(*(above - 1)) : SizeEffect{};
   const SizeEffect high = share > 0.0 ? at(*above) : low;
   if (share >= 1.0) return high;
   if (low.nodes == 0 || high.nodes == 0) return {};
   return {(1.0 - share) * low.change + share * high.change,
-          (1.0 - share) * low.error + share * high.error, high.nodes};
+          (1.0 - share) * low.error + share * high.error,
+          (1.0 - share) * low.moving + share * high.moving, high.nodes};
+}
+
+double swing(const SizeEffect& size, const scene::Estimates& estimates,
+             const scenario::Resolved::Tissue& tissue) {
+  const double change = estimates.tissue_share * size.change;
+  if (!(change < 0.0 && size.moving > 0.0 && estimates.rate > 0.0)) return 0.0;
+  const double compliance =
+      contact::Elastic{tissue.young_modulus, tissue.poisson_ratio}.compliance();
+  const double force = 4.0 / 3.0 * estimates.tissue_share / compliance * estimates.contact_radius *
+                       estimates.travel * (1.0 + change);
+  const double depth = estimates.travel * depth_share(change);
+  const double contact = 1.5 * force / depth;                                             // N/m
+  const double body = force / (estimates.travel - depth);                                 // N/m
+  const double frequency = std::sqrt((contact + body) / (tissue.density * size.moving));  // rad/s
+  const double started = std::min(1.0, frequency * estimates.travel / estimates.rate);
+  return contact / force * contact / (contact + body) * estimates.rate / frequency * started;
 }
 
 }  // namespace palpate::run

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenario/resolved.h"
+#include "scene/estimates.h"
 #include "scene/surface_touch.h"
 
 namespace palpate::scene {
@@ -22,6 +23,7 @@ namespace palpate::run {
 struct SizeEffect {
   double change = 0.0;  // of the formula's force, relative
   double error = 0.0;   // the mesh's own, a fraction of its force
+  double moving = 0.0;  // m^3, what moves as far as the body is softer than the formula  [swing]
   int nodes = 0;        // 0 if there is no mesh, or no solution on it
 };
 
@@ -35,5 +37,11 @@ struct SizeEffect {
 [[nodiscard]] SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,
                                      const scene::SurfaceTouch& touch,
                                      scene::SpecimenShapes& shapes);
+
+// By how much such a body swings about its static force, relative to it, where the finger starts
+// at its rate: its mass on what it yields beyond the formula, behind the spring of the contact.
+//                                                                   docs/theory.md [swing]
+[[nodiscard]] double swing(const SizeEffect& size, const scene::Estimates& estimates,
+                           const scenario::Resolved::Tissue& tissue);
 
 }  // namespace palpate::run

@@ -29,7 +29,8 @@ struct Estimates {
   double deep_error = 0.0;       // of that, or a bound where there is none
   double viscous = 0.0;          // increase by the tissue's viscosity
   double deep_bound = 0.0;       // of what large strains change
-  double inertia = 0.0;          // increase by the waves that the contact radiates
+  double inertia = 0.0;          // change by waves that the contact radiates, and by `swing`
+  double swing = 0.0;            // the part of a body that swings as a whole
   double curvature_ratio = 1.0;  // (1/R + kappa_1) / (1/R + kappa_2)
   std::optional<contact::DepthRatio> depth_ratio;  // of wide flat tissue of one kind
 };

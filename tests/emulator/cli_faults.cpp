@@ -186,7 +186,8 @@ TEST_P(ArmFault, TheForceOnTheWireObeysTheBounds) {
   }
 }
 
-// Stale after 3 ms, zero 50 ms later; a brake is a trip at once, and the force falls by 50 N/s.
+// Stale after 3 ms, zero 50 ms later; a brake is a trip at once, and the force falls by 50 N/s. A
+// flood takes the machine's time to come, which has no measure in the emulator's.
 INSTANTIATE_TEST_SUITE_P(Inverse3, ArmFault,
                          testing::Values(Fault{"rst", "", 6, -1.0},                         //
                                          Fault{"close_1000", "", 6, -1.0},                  //
@@ -229,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(Inverse3, ArmFault,
                                          Fault{"event_garbage", "", 0, -1.0},              //
                                          Fault{"event_partial", "", 0, -1.0},              //
                                          Fault{"event_huge", "", 0, -1.0},                 //
-                                         Fault{"event_flood", "", 6, 0.2},                 //
+                                         Fault{"event_flood", "", 6, -1.0},                //
                                          Fault{"flood", "", 6, -1.0},                      //
                                          Fault{"events_close", "", 0, -1.0},               //
                                          Fault{"events_half_open", "", 0, -1.0},           //

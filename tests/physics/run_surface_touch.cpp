@@ -120,7 +120,7 @@ TEST(SurfaceFile, HasOneForceFromAnySide) {
           "model = \"coupled_springs\"\nintegrator = \"quasi_static\"\ntolerance = 0.3\n" + lump +
           "centre = [\"" + number_text(centre.x()) + " mm\", \"" + number_text(centre.y()) +
           " mm\", \"" + number_text(centre.z()) +
-          " mm\"]\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\nrate = \"5 mm/s\"\n");
+          " mm\"]\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\nrate = \"0.5 mm/s\"\n");
       ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
       const std::pair now{record.contact.back().contact_force,
                           std::get<double>(test::finding(record, "stated_error"))};

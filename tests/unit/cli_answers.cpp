@@ -167,7 +167,7 @@ TEST(Explain, AdvisesAModelWithInertiaWhereWavesMatter) {
   ASSERT_EQ(chosen["model"], "solid");
   bool waves = false;
   for (const auto& effect : chosen["neglected"])
-    if (effect["effect"] == "waves in the tissue") {
+    if (effect["effect"] == "inertia of the tissue") {
       waves = true;
       EXPECT_EQ(effect["remedy"],
                 "set `solver.model = \"coupled_springs\"` and `tissue.viscosity = "
@@ -178,7 +178,7 @@ TEST(Explain, AdvisesAModelWithInertiaWhereWavesMatter) {
   for (const auto& effect :
        explained({"solver.model=coupled_springs", "tissue.viscosity=standard_linear_solid",
                   "contact.viscosity=tissue"})["neglected"]) {
-    EXPECT_NE(effect["effect"], "waves in the tissue");
+    EXPECT_NE(effect["effect"], "inertia of the tissue");
     EXPECT_NE(effect["effect"], "viscosity");
   }
   const auto followed = explained({"solver.model=coupled_springs", "tissue.viscosity=none"});

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "auto_scenes.h"
+#include "base/index.h"
 #include "run/answer.h"
 #include "run/refined_mesh.h"
 #include "scenario/family.h"
@@ -209,6 +212,54 @@ TEST(Choose, InertiaBelowTheToleranceIsStated) {
 }
 
 // A mesh that the scenario gives is not refined for waves: one of coarse cells states all of them.
+// The largest change of the force by inertia, over the last force, as a finger presses a slender
+// rod at its upper end: masses in a line under Hertz's force, stepped explicitly.
+double rod_swings(double radius, double height, double modulus, double nu, double density,
+                  double ball, double depth, double rate) {
+  constexpr int cells = 100;
+  constexpr double dt = 1e-5;
+  const double area = 3.14159265 * radius * radius;
+  const double spring = modulus * area * cells / height;
+  const double mass = density * area * height / cells;
+  const double law = 4.0 / 3.0 * modulus / (1.0 - nu * nu) * std::sqrt(ball);
+  const auto force = [&](double way, double end) {
+    return law * std::pow(std::max(0.0, way - end), 1.5);
+  };
+  std::vector<double> place(cells + 1, 0.0), speed(cells + 1, 0.0);  // downwards, 0 is held
+  double largest = 0.0, at_rest = 0.0;
+  for (double time = 0.0; time < depth / rate; time += dt) {
+    const double way = rate * time;
+    for (int i = 1; i <= cells; ++i) {
+      const double above = i < cells ? spring * (place[as_index(i + 1)] - place[as_index(i)])
+                                     : force(way, place.back());
+      const double below = spring * (place[as_index(i)] - place[as_index(i - 1)]);
+      speed[as_index(i)] += dt / (i < cells ? mass : 0.5 * mass) * (above - below);
+    }
+    for (int i = 1; i <= cells; ++i) place[as_index(i)] += dt * speed[as_index(i)];
+    double low = 0.0, high = way;  // of the end at rest
+    while (high - low > 1e-9 * way) {
+      const double middle = 0.5 * (low + high);
+      (force(way, middle) * cells > spring * middle ? low : high) = middle;
+    }
+    at_rest = force(way, low);
+    largest = std::max(largest, std::abs(force(way, place.back()) - at_rest));
+  }
+  return largest / at_rest;
+}
+
+TEST(Choose, APillarSwings) {
+  const Choice choice =
+      choose(read("[tissue]\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.3\ndensity = \"1100 "
+                  "kg/m^3\"\nviscosity = \"none\"\nshape = { kind = \"disc\", radius = \"10 mm\", "
+                  "height = \"100 mm\" }\n[finger]\nmaterial = \"rigid\"\nradius = \"6 "
+                  "mm\"\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\nrate = \"5 mm/s\"\n"));
+  const double truth = rod_swings(0.010, 0.100, 1e4, 0.3, 1100.0, 0.006, 5e-4, 5e-3);
+  // A bound: the contact is softer at first than it is counted.
+  EXPECT_GT(choice.expected.inertia, truth);
+  EXPECT_LT(choice.expected.inertia, 3.0 * truth);
+  EXPECT_EQ(choice.chosen.solver.model, Model::coupled_springs);  // not `solid`, which rests
+}
+
 TEST(Choose, ACoarseLatticeDoesNotCarryWaves) {
   const auto stated = [](const std::string& kind, const char* cells) {
     return choose(read(press +
