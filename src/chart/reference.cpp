@@ -385,8 +385,8 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   const double inertia = choice.expected.inertia;
   const double tolerance = scenario.solver.tolerance;
   const bool flows = scenario::viscous_contact(scenario);
-  // Waves at the contact need its cells in motion. A swing of the whole body is added to the solid's
-  // force, which coupled springs have less exactly.
+  // Waves at the contact need its cells in motion. A swing of the whole body is added to the
+  // solid's force, which coupled springs have less exactly.
   const bool moves = scenario.solver.integrator ? about(*scenario.solver.integrator).inertia
                                                 : inertia - choice.expected.swing >= tolerance;
   double& interval = scenario.output.interval;
