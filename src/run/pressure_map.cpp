@@ -339,9 +339,9 @@ record::PressureMap draw_map(const scene::Scene& scene, const mechanics::Touch& 
 record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surface, double reach,
                              double force, const Vec3& finger) {
   record::PressureMap map;
-  if (outer_surface.triangles.empty() || !(reach > 0.0)) map = empty_map(finger);
+  if (outer_surface.faces.empty() || !(reach > 0.0)) map = empty_map(finger);
   map.contact_force = force;
-  if (outer_surface.triangles.empty() || !(reach > 0.0)) return map;
+  if (outer_surface.faces.empty() || !(reach > 0.0)) return map;
   Vec3 low = Vec3::Constant(outside);
   Vec3 high = -low;
   for (const solid::Indenter& indenter : outer_surface.finger) {
@@ -355,35 +355,55 @@ record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surfa
   std::vector<double> sums(pixels, 0.0);
   std::vector<Vec3> tractions(pixels, Vec3::Zero());
   map.gap.assign(pixels, std::numeric_limits<float>::infinity());
-  for (std::size_t t = 0; t < outer_surface.triangles.size(); ++t) {
-    const std::array<Vec3, 3>& triangle = outer_surface.triangles[t];
+  // A face is seen as four triangles; the gap is that of the place on the quadratic face. Between
+  // the points at which the penalty acts the faces may part from the finger by some ten-thousandths
+  // of its radius.
+  constexpr double closed = 3e-4;
+  constexpr std::array<std::array<std::size_t, 3>, 4> parts{
+      {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+  constexpr std::array<std::array<double, 3>, 6> nodes{
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}};
+  const auto draw_part = [&](std::size_t face, const std::array<std::size_t, 3>& part) {
+    const std::array<Vec3, 6>& places = outer_surface.faces[face];
+    const std::array<Vec3, 3> triangle{places[part[0]], places[part[1]], places[part[2]]};
     const Vec3 twice = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-    if (twice.z() <= 0.0) continue;
+    if (twice.z() <= 0.0) return;
     raster(triangle, map, [&](int i, int j, const std::array<double, 3>& weights) {
       char& mark = taken[as_index(j * across + i)];
       if (mark != 0) return;
       mark = 1;
       const auto pixel = as_index(j / samples * map.width + i / samples);
+      std::array<double, 3> at{};
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t c = 0; c < 3; ++c) at[c] += weights[k] * nodes[part[k]][c];
+      const std::array<double, 6> values = solid::face_values(at);
       Vec3 place = Vec3::Zero();
       double lift = 0.0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        place += weights[k] * triangle[k];
-        lift += weights[k] * outer_surface.lifts[t][k];
+      for (std::size_t k = 0; k < 6; ++k) {
+        place += values[k] * places[k];
+        lift += values[k] * outer_surface.lifts[face][k];
       }
+      double open = outside;
+      double allowed = 0.0;
       for (const solid::Indenter& indenter : outer_surface.finger) {
-        const auto here = indenter.at(place);
         const auto gap = indenter.gap(place);
-        if (!here || !gap) continue;
-        const double s = indenter.share;
-        map.gap[pixel] = std::min(map.gap[pixel],
-                                  static_cast<float>(std::max(0.0, s * *gap - (1.0 - s) * lift)));
-        const double overlap = s * here->depth + (1.0 - s) * lift;
-        if (overlap <= 0.0) continue;
-        sums[pixel] += overlap;
-        tractions[pixel] -= overlap / here->normal.z() * here->normal;
+        if (!gap) continue;
+        const double here = indenter.share * *gap - (1.0 - indenter.share) * lift;
+        if (here < open) allowed = closed / std::max(indenter.curvature[0], indenter.curvature[1]);
+        open = std::min(open, here);
       }
+      map.gap[pixel] = std::min(map.gap[pixel], static_cast<float>(std::max(0.0, open)));
+      if (open > allowed) return;
+      Vec3 traction = Vec3::Zero();
+      for (std::size_t k = 0; k < 3; ++k)
+        traction += weights[k] * outer_surface.tractions[face][part[k]];
+      if (traction.z() >= 0.0) return;
+      sums[pixel] -= traction.z();
+      tractions[pixel] += traction;
     });
-  }
+  };
+  for (std::size_t face = 0; face < outer_surface.faces.size(); ++face)
+    for (const auto& part : parts) draw_part(face, part);
   double integral = 0.0;
   for (const double sum : sums) integral += sum * map.pitch * map.pitch;
   const double scale = integral > 0.0 ? force / integral : 0.0;

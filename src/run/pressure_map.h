@@ -12,8 +12,8 @@ namespace palpate::run {
 [[nodiscard]] record::PressureMap draw_map(const scene::Scene& scene,
                                            const mechanics::Touch& touch);
 
-// The same of a solid. The pressure goes with the overlap of the balls and the displaced surface,
-// as the solid's own does, and integrates to `force` (N); `reach` (m) is the radius of the contact.
+// The same of a solid, whose tractions at nodes are linear between them where the surface touches,
+// and integrate to `force` (N); `reach` (m) is the radius of the contact.
 [[nodiscard]] record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surface,
                                            double reach, double force, const Vec3& finger);
 

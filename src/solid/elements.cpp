@@ -56,6 +56,24 @@ Functions functions_at(const std::array<double, 4>& l) {
   return at;
 }
 
+std::array<double, 6> face_values(const std::array<double, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  return {a * (2.0 * a - 1.0), b * (2.0 * b - 1.0), c * (2.0 * c - 1.0),
+          4.0 * a * b,         4.0 * b * c,         4.0 * c * a};
+}
+
+std::array<double, 6> part_values(const std::array<double, 3>& corners) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (corners[i] <= 0.5) continue;
+    std::array<double, 6> values{};
+    values[i] = 2.0 * corners[i] - 1.0;
+    values[3 + i] = 2.0 * corners[(i + 1) % 3];
+    values[3 + (i + 2) % 3] = 2.0 * corners[(i + 2) % 3];
+    return values;
+  }
+  return {0.0, 0.0, 0.0, 1.0 - 2.0 * corners[2], 1.0 - 2.0 * corners[0], 1.0 - 2.0 * corners[1]};
+}
+
 const std::array<Functions, points>& at_points() {
   static const std::array<Functions, points> all = [] {
     const double b = (5.0 - std::sqrt(5.0)) / 20.0;  // exact for polynomials of degree two

@@ -46,6 +46,11 @@ struct Functions {
 };
 [[nodiscard]] Functions functions_at(const std::array<double, 4>& corners);
 
+// Values of the six functions of a face at barycentric coordinates of its corners.
+[[nodiscard]] std::array<double, 6> face_values(const std::array<double, 3>& corners);
+// Of the functions that are linear in each of the four parts of a face that its middles make.
+[[nodiscard]] std::array<double, 6> part_values(const std::array<double, 3>& corners);
+
 // The four integration points of an element, each with the weight 1/24.
 inline constexpr int points = 4;
 [[nodiscard]] const std::array<Functions, points>& at_points();

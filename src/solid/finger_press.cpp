@@ -345,35 +345,40 @@ FingerPress::OuterSurface FingerPress::surface_at(double travel, const Vec3& pla
   if (!moved) return outer_surface;
   outer_surface.finger = press_->finger_at(finger);
   const Body& body = press_->body();
-  constexpr std::array<std::array<std::size_t, 3>, 4> parts{
-      {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
-  for (const OuterFace& face : body.met)
-    for (const auto& part : parts) {
-      std::array<Vec3, 3> corners, changes;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const int node = face.nodes[part[i]];
-        corners[i] = body.mesh.nodes[as_index(node)];
-        changes[i] = moved->segment<3>(3 * node);
-      }
-      const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
-      std::array<double, 3> lifts{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        lifts[i] = normal.dot(changes[i]);
-        corners[i] += changes[i];
-      }
-      for (int copy = 0; copy < 4; ++copy) {
-        const std::array<bool, 2> across{(copy & 1) != 0, (copy & 2) != 0};
-        if ((across[0] && !body.mirrored[0]) || (across[1] && !body.mirrored[1])) continue;
-        std::array<Vec3, 3> image = corners;
-        for (Vec3& corner : image)
-          for (const int axis : {0, 1})
-            if (across[as_index(axis)]) corner[axis] = 2.0 * mirror_[axis] - corner[axis];
-        const bool turned = across[0] != across[1];
-        if (turned) std::swap(image[1], image[2]);
-        outer_surface.triangles.push_back(image);
-        outer_surface.lifts.push_back({lifts[0], lifts[turned ? 2 : 1], lifts[turned ? 1 : 2]});
+  const std::vector<Vec3> tractions = press_->tractions(*moved, finger);
+  constexpr std::array<std::size_t, 6> turned_over{0, 2, 1, 5, 4, 3};
+  for (const OuterFace& face : body.met) {
+    std::array<Vec3, 6> places;
+    for (std::size_t i = 0; i < 6; ++i) places[i] = body.mesh.nodes[as_index(face.nodes[i])];
+    const Vec3 normal = (places[1] - places[0]).cross(places[2] - places[0]).normalized();
+    std::array<double, 6> lifts{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Vec3 change = moved->segment<3>(3 * face.nodes[i]);
+      lifts[i] = normal.dot(change);
+      places[i] += change;
+    }
+    for (int copy = 0; copy < 4; ++copy) {
+      const std::array<bool, 2> across{(copy & 1) != 0, (copy & 2) != 0};
+      if ((across[0] && !body.mirrored[0]) || (across[1] && !body.mirrored[1])) continue;
+      std::array<Vec3, 6>& image = outer_surface.faces.emplace_back();
+      std::array<double, 6>& its_lifts = outer_surface.lifts.emplace_back();
+      std::array<Vec3, 6>& its_tractions = outer_surface.tractions.emplace_back();
+      for (std::size_t i = 0; i < 6; ++i) {
+        const std::size_t from = across[0] != across[1] ? turned_over[i] : i;
+        image[i] = places[from];
+        its_lifts[i] = lifts[from];
+        for (const int axis : {0, 1})
+          if (across[as_index(axis)]) image[i][axis] = 2.0 * mirror_[axis] - image[i][axis];
+        its_tractions[i] = tractions[as_index(face.nodes[from])];
+        for (const int axis : {0, 1}) {
+          if (across[as_index(axis)]) its_tractions[i][axis] *= -1.0;
+          if (body.mirrored[as_index(axis)] &&
+              body.mesh.nodes[as_index(face.nodes[from])][axis] == mirror_[axis])
+            its_tractions[i][axis] = 0.0;  // by both sides of the mirror
+        }
       }
     }
+  }
   return outer_surface;
 }
 

@@ -101,11 +101,12 @@ class FingerPress {
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
   // The surface that may be met at a place beside the first touch, displaced, with all copies that
-  // the mirrors make, m; faces are quadratic and come in four parts. With the finger there. Empty
-  // where no equilibrium is found.
+  // the mirrors make: the nodes of its faces, in the order of solid::Face. With the finger there.
+  // Empty where no equilibrium is found.
   struct OuterSurface {
-    std::vector<std::array<Vec3, 3>> triangles;
-    std::vector<std::array<double, 3>> lifts;  // m, of the corners along the undeformed normal
+    std::vector<std::array<Vec3, 6>> faces;      // m
+    std::vector<std::array<double, 6>> lifts;    // m, of these along the face's undeformed normal
+    std::vector<std::array<Vec3, 6>> tractions;  // Pa, on the tissue at these
     std::vector<Indenter> finger;
   };
   [[nodiscard]] OuterSurface surface_at(double travel, const Vec3& place);

@@ -11,6 +11,7 @@ namespace palpate::solid {
 namespace {
 
 struct FacePoint {
+  std::array<double, 3> corners{};  // barycentric
   std::array<double, 6> values{};
   std::array<double, 6> along_1{}, along_2{};  // derivatives
   double weight = 0.0;                         // of the area of 1/2
@@ -21,13 +22,11 @@ FacePoint face_point(double x, double y, double weight) {
   const std::array<double, 3> l{1.0 - x - y, x, y};
   constexpr std::array<double, 3> dx{-1.0, 1.0, 0.0};
   constexpr std::array<double, 3> dy{-1.0, 0.0, 1.0};
-  FacePoint at{.weight = weight};
+  FacePoint at{.corners = l, .values = face_values(l), .weight = weight};
   for (std::size_t i = 0; i < 3; ++i) {
-    at.values[i] = l[i] * (2.0 * l[i] - 1.0);
     at.along_1[i] = (4.0 * l[i] - 1.0) * dx[i];
     at.along_2[i] = (4.0 * l[i] - 1.0) * dy[i];
     const std::size_t j = (i + 1) % 3;
-    at.values[3 + i] = 4.0 * l[i] * l[j];
     at.along_1[3 + i] = 4.0 * (l[i] * dx[j] + l[j] * dx[i]);
     at.along_2[3 + i] = 4.0 * (l[i] * dy[j] + l[j] * dy[i]);
   }
@@ -177,7 +176,6 @@ void Contact::add(const Vector& displacement, std::span<const Indenter> indenter
              own.force += area * pressure * here.push;
              own.work += area * pressure * here.depth;
              own.area += area;
-             own.peak = std::max(own.peak, pressure);
              const std::array<double, 6>& n = rule()[q].values;
              for (std::size_t a = 0; a < 6; ++a)
                force.segment<3>(3 * face.nodes[a]) -= n[a] * area * pressure * here.push;
@@ -190,6 +188,44 @@ void Contact::add(const Vector& displacement, std::span<const Indenter> indenter
                        n[r / 3] * n[c / 3] *
                        change(static_cast<Eigen::Index>(r % 3), static_cast<Eigen::Index>(c % 3));
            });
+}
+
+std::vector<Vec3> Contact::tractions(const Vector& displacement,
+                                     std::span<const Indenter> indenters) const {
+  const auto nodes = static_cast<std::size_t>(displacement.size() / 3);
+  std::array<std::array<double, 6>, face_points> weights;
+  for (std::size_t q = 0; q < face_points; ++q) weights[q] = part_values(rule()[q].corners);
+  std::vector<double> areas(nodes, 0.0);
+  std::vector<Vec3> mean(nodes, Vec3::Zero());
+  const auto spread = [&](const Own& face, std::size_t q, const Vec3& traction,
+                          std::vector<Vec3>& sums) {
+    for (std::size_t a = 0; a < 6; ++a)
+      sums[as_index(face.nodes[a])] += weights[q][a] * face.areas[q] * traction;
+  };
+  const auto divide = [&](std::vector<Vec3>& sums) {
+    for (std::size_t n = 0; n < nodes; ++n)
+      if (areas[n] > 0.0) sums[n] /= areas[n];
+  };
+  for (const Own& face : faces_)
+    for (std::size_t q = 0; q < face_points; ++q)
+      for (std::size_t a = 0; a < 6; ++a)
+        areas[as_index(face.nodes[a])] += weights[q][a] * face.areas[q];
+  for_each(displacement, indenters, {},
+           [&](const Own& face, std::size_t q, std::size_t, const Overlap& here) {
+             spread(face, q, stiffness_ * here.depth * here.push, mean);
+           });
+  divide(mean);
+  std::vector<Vec3> again(nodes, Vec3::Zero());
+  for (const Own& face : faces_)
+    for (std::size_t q = 0; q < face_points; ++q) {
+      Vec3 traction = Vec3::Zero();
+      for (std::size_t a = 0; a < 6; ++a)
+        traction += weights[q][a] * mean[as_index(face.nodes[a])];
+      spread(face, q, traction, again);
+    }
+  divide(again);
+  for (std::size_t n = 0; n < nodes; ++n) mean[n] += mean[n] - again[n];
+  return mean;
 }
 
 double Contact::energy(const Vector& displacement, std::span<const Indenter> indenters) const {
@@ -322,12 +358,13 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
       answer.force -= body_.copies * one.force;
       work += body_.copies * one.work;
       answer.area += body_.copies * one.area;
-      answer.peak = std::max(answer.peak, one.peak);
       if (one.area > 0.0) answer.touching += images_of(indenters_[i].pole);
     }
     for (int axis = 0; axis < 2; ++axis)
       if (body_.mirrored[as_index(axis)]) answer.force[axis] = 0.0;
     if (answer.normal() > 0.0) answer.lost = work / answer.normal();
+    for (const Vec3& traction : contact_.tractions(u, indenters))
+      answer.peak = std::max(answer.peak, traction.norm());
     before_ = std::move(now_);
     has_before_ = true;
     now_ = {finger, std::move(u), elements_.pressures()};

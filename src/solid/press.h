@@ -46,7 +46,6 @@ struct Met {
   Vec3 force = Vec3::Zero();  // N, on the body
   double work = 0.0;          // N m, sum of the forces at the points times their overlap
   double area = 0.0;          // m^2, undeformed, of the points in contact
-  double peak = 0.0;          // Pa, largest pressure at a point, on undeformed area
 };
 
 // A penalty pushes every integration point of a face (seven, exact to degree five) out of an
@@ -67,6 +66,12 @@ class Contact {
   void add(const Vector& displacement, std::span<const Indenter> indenters,
            std::span<const double> least, Vector& force, Eigen::SparseMatrix<double>& stiffness,
            std::vector<Met>& met) const;
+
+  // On the tissue at the nodes of the mesh, Pa: the means of the integration points around a node,
+  // weighted by their areas and by part_values(), which keeps the sum of the forces. Between the
+  // points the overlap itself is no pressure.
+  [[nodiscard]] std::vector<Vec3> tractions(const Vector& displacement,
+                                            std::span<const Indenter> indenters) const;
 
   // Half of every indenter's deepest overlap with the undeformed body, m: where it is more, Hertz's
   // contact is, half of the area that overlaps.
@@ -118,7 +123,7 @@ struct Answer {
   Vec3 force = Vec3::Zero();   // N, on the finger; sideways parts that mirrors cancel are excluded
   double lost = 0.0;           // m, depth that the penalty lets through, mean weighted by pressure
   double area = 0.0;           // m^2, in contact
-  double peak = 0.0;           // Pa
+  double peak = 0.0;           // Pa, the largest of Contact::tractions(), on undeformed area
   int touching = 0;            // indenters in contact
 
   [[nodiscard]] double normal() const;  // N, sum of `forces`
@@ -145,6 +150,11 @@ class Press {
   // The displacement (m) with the finger's point at `finger` (m); nothing without an equilibrium.
   // The state stays as it is, so that later answers do not depend on this.
   [[nodiscard]] std::optional<Vector> look(const Vec3& finger);
+
+  // Those of the contact at a displacement (m), with the finger's point at `finger` (m).
+  [[nodiscard]] std::vector<Vec3> tractions(const Vector& displacement, const Vec3& finger) const {
+    return contact_.tractions(displacement, finger_at(finger));
+  }
 
   [[nodiscard]] std::vector<Indenter> finger_at(const Vec3& place) const;  // m
   [[nodiscard]] const Body& body() const { return body_; }

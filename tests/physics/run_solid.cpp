@@ -148,5 +148,50 @@ TEST(Solid, LaysRegionsInTheirOrderAsSpringsDo) {
   }
 }
 
+// The pressure of a map along two lines through the finger, and the peak of every row, beside
+// Hertz's on a thick block; pressures of single integration points scatter by a third.
+TEST(Solid, HasHertzsPressures) {
+  constexpr double radius = 8e-3;
+  const record::CaseRecord record = test::run_text(R"([tissue]
+young_modulus = "20 kPa"
+poisson_ratio = 0.45
+viscosity = "none"
+shape = { size = ["100 mm", "100 mm", "60 mm"] }
+[finger]
+material = "rigid"
+radius = "8 mm"
+[solver]
+model = "solid"
+[[step]]
+kind = "indent"
+to = "0.8 mm"
+rate = "1 mm/s"
+)");
+  const auto peak = [](double depth) {  // Pa
+    return 2.0 * 20e3 / (1.0 - 0.45 * 0.45) / M_PI * std::sqrt(depth / radius);
+  };
+  for (const record::ContactRow& row : record.contact)
+    if (row.travel > 0.1e-3) {
+      EXPECT_NEAR(row.peak_pressure / peak(row.travel), 1.0, 0.05) << row.travel;
+    }
+  ASSERT_EQ(record.maps.size(), 1U);
+  const record::PressureMap& map = record.maps.front();
+  EXPECT_NEAR(record::integral(map), record.contact.back().contact_force,
+              1e-6 * record.contact.back().contact_force);
+  const double a = std::sqrt(radius * 0.8e-3);
+  for (int i = 0; i < map.width; ++i) {
+    const int middle = map.height / 2;
+    const double x = (i - 0.5 * (map.width - 1)) * map.pitch / a;
+    for (const int pixel : {middle * map.width + i, i * map.width + middle}) {
+      const double got = map.pressure[static_cast<std::size_t>(pixel)] / peak(0.8e-3);
+      if (std::abs(x) < 0.85) {
+        EXPECT_NEAR(got, std::sqrt(1.0 - x * x), 0.12) << x;
+      } else if (std::abs(x) > 1.05) {
+        EXPECT_EQ(got, 0.0) << x;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate
