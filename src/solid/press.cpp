@@ -219,8 +219,7 @@ std::vector<Vec3> Contact::tractions(const Vector& displacement,
   for (const Own& face : faces_)
     for (std::size_t q = 0; q < face_points; ++q) {
       Vec3 traction = Vec3::Zero();
-      for (std::size_t a = 0; a < 6; ++a)
-        traction += weights[q][a] * mean[as_index(face.nodes[a])];
+      for (std::size_t a = 0; a < 6; ++a) traction += weights[q][a] * mean[as_index(face.nodes[a])];
       spread(face, q, traction, again);
     }
   divide(again);
