@@ -388,9 +388,13 @@ std::optional<Answer> FingerPress::go(double travel) {
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) {
     const double reached = order_.touch.finger.z() - press_->reached().z();
-    reason_ = "the solid finds no equilibrium beyond a displacement of " +
-              rounded_text(unit::mm.from_si(reached), 3) +
-              " mm: the tissue folds there; press less deep";
+    reason_ = reached > 0.0 ? "the solid finds no equilibrium beyond a displacement of " +
+                                  rounded_text(unit::mm.from_si(reached), 3) +
+                                  " mm: the tissue folds there; press less deep"
+                            : "the body gives way sideways as soon as the finger touches it: press "
+                              "it nearer to where it is held, or across its length "
+                              "(`finger.towards`), or hold more of it (`tissue.base_height`, "
+                              "`tissue.base_side`)";
   }
   return found;
 }
