@@ -432,7 +432,8 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
   for (const geometry::Surface& part : parts) volumes.push_back(geometry::enclosed(part).volume);
   geometry::Surface taken;
   add_part(taken, parts[as_index(own - 1)], volumes[as_index(own - 1)] < 0.0);
-  int specks = 0, hollows = 0;
+  constexpr int most_named = 3;
+  int specks = 0, hollows = 0, beside = 0;
   std::string others, cavities;
   for (int i = 1; i <= count; ++i) {
     if (i == own) continue;
@@ -451,6 +452,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
       taken = std::move(both);
       ++hollows;
     }
+    if (!cavity && ++beside > most_named) continue;
     std::string& list = cavity ? cavities : others;
     list += (list.empty() ? "" : ", ") + std::string("part ") + std::to_string(i) +
             near_text(geometry::enclosed(other).centroid) + " with " + percent_text(share) +
@@ -463,6 +465,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
     text +=
         std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;
   if (!others.empty()) text += ", without " + others;
+  if (beside > most_named) text += ", and " + many(beside - most_named, "smaller part");
   if (specks > 0) text += ", and " + many(specks, "speck") + " excluded";
   return text;
 }

@@ -206,6 +206,12 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("mirrored_copies", static_cast<double>(finest.body().copies));
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
+  if (const auto snap = presses_.back()->snap())
+    record.warnings.push_back("the force falls from a displacement of " +
+                              rounded_text(unit::mm.from_si(snap->first), 2) + " mm to " +
+                              rounded_text(unit::mm.from_si(snap->second), 2) +
+                              " mm: a wall snaps through there, and a finger that is pressed by a "
+                              "force would jump");
   if (inclusion_size_ < 1.0)
     record.warnings.push_back(
         "an inclusion that touches a border is meshed with a radius that is " +

@@ -126,6 +126,14 @@ TEST(SurfaceRepair, the_part_nearest_to_the_finger_is_pressed) {
       0.875 * volume, 1e-12);
 }
 
+TEST(SurfaceRepair, the_smallest_of_many_parts_are_counted) {
+  Surface many = body();
+  for (int i = 1; i < 7; ++i) many = with(many, body(), Vec3(0.1 * i, 0, 0), 0.5, false);
+  const std::string text = told(many, rounding);
+  EXPECT_NE(text.find("without part 2 near ("), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(" of its volume, and 3 smaller parts")) << text;
+}
+
 // A public rabbit has legs, eyes and teeth that stand in its body.
 TEST(SurfaceRepair, a_part_that_cuts_the_one_taken_is_neither_a_cavity_nor_a_fault) {
   for (const double scale : {0.9, 0.5}) {
