@@ -241,9 +241,11 @@ class Explanation {
     double low = level;
     for (const Vec3& vertex : outer_surface->surface().vertices)
       low = std::min(low, vertex.dot(scenario.tissue.base_up));
+    const scene::Box box = scene::box_of(outer_surface->surface().vertices);
+    const double rounding = 1e-9 * (box.high - box.low).norm();
     const std::string& side = scenario.tissue.base_side;
     line("  base         " +
-         (level > low
+         (level > low + rounding
               ? "the surface up to a height of " + rounded_text(unit::mm.from_si(level)) + " mm"
               : std::string("the lowest plane")) +
          (side.empty() ? "" : " on the side towards " + side) +

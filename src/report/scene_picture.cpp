@@ -237,7 +237,8 @@ std::string travel(const ScenePicture& picture, const View& view) {
   };
   const Point tail = back(before + 43.0);
   return arrow(tail, back(before + 5.0), 12.0) +
-         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)}, " stroke=\"none\"",
+         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)},
+               " stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"",  // over a body
                mm_text(picture.travel));
 }
 

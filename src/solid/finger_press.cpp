@@ -331,7 +331,8 @@ void FingerPress::press_ball(double force) {
       return;
     }
     ball_.reached = next;
-    ball_.points.push_back({next - found->lost, found->normal(), {}});
+    // A ball that hardly yields may lose all of its travel in the penalty.
+    if (next > found->lost) ball_.points.push_back({next - found->lost, found->normal(), {}});
   }
 }
 
@@ -418,7 +419,7 @@ bool FingerPress::reach(double travel) {
       return;
     }
     tissue_.reached = at;
-    if (!lost)
+    if (!lost && at > answer->lost)
       tissue_.points.push_back(
           {at - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
   };
@@ -429,7 +430,7 @@ bool FingerPress::reach(double travel) {
     if (tissue_.reached >= deepest) next = std::min(next, 1.5 * tissue_.reached);
     if (in_steps_) next = (std::round(steps * tissue_.reached / deepest) + 1.0) / steps * deepest;
     take(next, go(next));
-    if (!in_steps_ && (lost || buckles() || tissue_.points.empty())) {
+    if (!in_steps_ && (lost || !is_power_law() || tissue_.points.empty())) {
       in_steps_ = true;
       reason_.clear();
       tissue_ = {};
@@ -447,7 +448,7 @@ bool FingerPress::reach(double travel) {
 
 // The exponent of the force over the travel is 1.5 of a small contact, 1 of a plate that bends, and
 // rises with depth; less, or a sudden rise, is a wall that gives way.
-bool FingerPress::buckles() const {
+bool FingerPress::is_power_law() const {
   constexpr double least = 0.8;
   constexpr double most_change = 1.0;
   double before = HUGE_VAL;
@@ -455,10 +456,10 @@ bool FingerPress::buckles() const {
     const Point& one = tissue_.points[i - 1];
     const Point& next = tissue_.points[i];
     const double power = std::log(next.force / one.force) / std::log(next.travel / one.travel);
-    if (power < least || power > before + most_change) return true;
+    if (power < least || power > before + most_change) return false;
     before = power;
   }
-  return false;
+  return true;
 }
 
 std::optional<std::pair<double, double>> FingerPress::snap() const {

@@ -101,7 +101,9 @@ class FingerPress {
   [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  // The displacements (m) between which the force falls at the first place, of those found so far:
+  // Whether a wall gives way, as far as the curve has been found, so that it has sixteen points.
+  [[nodiscard]] bool buckles() const { return in_steps_; }
+  // The displacements (m) between which the force falls first, as far as the curve has been found:
   // the wall snaps through.
   [[nodiscard]] std::optional<std::pair<double, double>> snap() const;
 
@@ -131,7 +133,7 @@ class FingerPress {
   // Finds the curve of the tissue up to a travel of its own (m); false where there is no
   // equilibrium.
   [[nodiscard]] bool reach(double travel);
-  [[nodiscard]] bool buckles() const;
+  [[nodiscard]] bool is_power_law() const;
   [[nodiscard]] std::optional<Answer> go(double travel);
   [[nodiscard]] static Moment moment_of(const Answer& answer, double force);
   // The press at a place beside the touch, made when it is first asked for; null where the finger
