@@ -187,8 +187,12 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   // The meshes are made for the deepest travel, and for a width on edges; their elements are larger
   // beside smaller and narrower contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
-  // Meshes on which a wall buckles at other displacements agree here and there by luck.
-  if (presses_.back()->buckles()) error_ = worst_ = std::max(worst_, error_);
+  // Meshes on which a wall buckles at other displacements agree here and there by luck, and do not
+  // converge with the square of their size: their largest difference on the way is stated.
+  if (presses_.back()->buckles() && best.force > 0.0) {
+    const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
+    error_ = worst_ = std::max({worst_, error_, (*most - *least) / best.force});
+  }
   error_ *= std::max(1.0, solid::most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();

@@ -13,8 +13,8 @@
 
 namespace palpate::run {
 
-// On one mesh; where `solver.tolerance` is below what it states, or a wall is thin, on two or three,
-// extrapolated.
+// On one mesh; where `solver.tolerance` is below what it states, or a wall is thin, on two or
+// three, extrapolated.
 //                                                                docs/theory.md [solid_force]
 class SolidPress {
  public:

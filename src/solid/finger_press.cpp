@@ -319,20 +319,28 @@ void FingerPress::press_ball(double force) {
                               .share = 1.0 - order_.share}});
     ball_press_->begin(Vec3::Zero());
   }
-  while (reason_.empty() &&
-         (ball_.points.size() < 3 || ball_.points.back().force * upright() < force)) {
-    const double next = ball_.points.empty()   ? 0.25 * part
+  const auto bears = [&] {
+    return !ball_.points.empty() && ball_.points.back().force * upright() >= force;
+  };
+  // Hertz's depth, but for a factor: a finger on a soft wall hardly yields.
+  const double modulus = order_.ball->young_modulus;
+  const double expected = std::pow(force / (modulus * std::sqrt(order_.radius)), 2.0 / 3.0);
+  while (reason_.empty() && (ball_.points.size() < 3 || !bears())) {
+    const double next = ball_.reached == 0.0   ? std::min(0.25 * part, expected)
                         : ball_.reached < part ? 2.0 * ball_.reached
                                                : 1.5 * ball_.reached;
     const auto found = ball_press_->go(-next / (1.0 - order_.share) * Vec3::UnitZ());
-    if (!found || !(found->normal() > 0.0)) {
+    if (!found && bears()) return;
+    if (!found) {
       reason_ = "the solid finds no equilibrium of the finger's ball beyond a displacement of " +
                 quantity_text(ball_.reached, unit::mm) + "; press less deep";
       return;
     }
     ball_.reached = next;
-    // A ball that hardly yields may lose all of its travel in the penalty.
-    if (next > found->lost) ball_.points.push_back({next - found->lost, found->normal(), {}});
+    // Such a contact may be smaller than the ball's elements, or lose its travel in the penalty.
+    constexpr double least = 0.1;
+    if (found->normal() > 0.0)
+      ball_.points.push_back({std::max(next - found->lost, least * next), found->normal(), {}});
   }
 }
 

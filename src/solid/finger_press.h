@@ -80,11 +80,11 @@ struct Moment {
 };
 
 // Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
-// its points at a quarter and half of the deepest travel and there, or where a wall buckles at every
-// sixteenth, and the logarithm of the force is a parabola of that of the travel between them. An
-// elastic finger is a ball of its own radius:
-// each body takes its share of the curvature of the gap between them, ball and tissue are pressed
-// by the rigid surface between their shares, and their travels at equal forces add.
+// its points at a quarter and half of the deepest travel and there, or where a wall buckles at
+// every sixteenth, and the logarithm of the force is a parabola of that of the travel between them.
+// An elastic finger is a ball of its own radius: each body takes its share of the curvature of the
+// gap between them, ball and tissue are pressed by the rigid surface between their shares, and
+// their travels at equal forces add.
 //                                                                        docs/theory.md
 //                                                                        [solid_force]
 class FingerPress {

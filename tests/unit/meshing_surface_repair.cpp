@@ -106,7 +106,8 @@ TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   EXPECT_NEAR(geometry::enclosed(second).volume, 0.125 * geometry::enclosed(body()).volume, 1e-12);
 }
 
-// A place inside the larger one is nearest to the walls of neither the cavity nor the part that cuts.
+// A place inside the larger one is nearest to the walls of neither the cavity nor the part that
+// cuts.
 TEST(SurfaceRepair, the_part_nearest_to_the_finger_is_pressed) {
   const Surface two = with(body(), body(), Vec3(0.2, 0, 0), 0.5, false);
   const double volume = geometry::enclosed(body()).volume;

@@ -67,7 +67,8 @@ TEST(SurfaceNet, MovesNoVertexThroughAnotherSheet) {
   EXPECT_EQ(crossing(2), 0u);
 }
 
-// Every place between corners is nearest to a corner, as on a fold: halves are as long as the whole.
+// Every place between corners is nearest to a corner, as on a fold: halves are as long as the
+// whole.
 TEST(SurfaceNet, EndsWhereTheTrueSurfaceIsElsewhere) {
   const geometry::Surface square{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)},
                                  {{0, 1, 2}, {0, 2, 3}}};
@@ -77,8 +78,7 @@ TEST(SurfaceNet, EndsWhereTheTrueSurfaceIsElsewhere) {
   net.refine([](const Vec3&) { return 0.1; });
   EXPECT_GT(net.vertices().size(), 60u);
   EXPECT_LT(net.vertices().size(), 2000u);
-  SurfaceNet fine(square, {2, 2},
-                  [](const Vec3& point, std::span<const int>) { return point; });
+  SurfaceNet fine(square, {2, 2}, [](const Vec3& point, std::span<const int>) { return point; });
   EXPECT_THROW(fine.refine([](const Vec3&) { return 1e-3; }), MeshError);
 }
 
