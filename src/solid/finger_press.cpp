@@ -325,7 +325,7 @@ void FingerPress::press_ball(double force) {
   // Hertz's depth, but for a factor: a finger on a soft wall hardly yields.
   const double modulus = order_.ball->young_modulus;
   const double expected = std::pow(force / (modulus * std::sqrt(order_.radius)), 2.0 / 3.0);
-  while (reason_.empty() && (ball_.points.size() < 3 || !bears())) {
+  while (reason_.empty() && ((ball_.points.size() < 3 && ball_.reached < part) || !bears())) {
     const double next = ball_.reached == 0.0   ? std::min(0.25 * part, expected)
                         : ball_.reached < part ? 2.0 * ball_.reached
                                                : 1.5 * ball_.reached;
@@ -337,10 +337,12 @@ void FingerPress::press_ball(double force) {
       return;
     }
     ball_.reached = next;
-    // Such a contact may be smaller than the ball's elements, or lose its travel in the penalty.
+    // A small contact may touch no point of the ball's elements, or lose its travel in the penalty;
+    // so may one around the whole ball, which no soft tissue reaches.
     constexpr double least = 0.1;
-    if (found->normal() > 0.0)
-      ball_.points.push_back({std::max(next - found->lost, least * next), found->normal(), {}});
+    const double travel = std::max(next - found->lost, least * next);
+    if (found->normal() > 0.0 && (ball_.points.empty() || travel > ball_.points.back().travel))
+      ball_.points.push_back({travel, found->normal(), {}});
   }
 }
 

@@ -167,6 +167,30 @@ TEST(FingerPress, AWallThatBucklesIsPressedInSteps) {
   EXPECT_FALSE(block.snap());
 }
 
+// Pressed by nearly its radius, a ball of 2 MPa on a soft wall still is a rigid one.
+TEST(FingerPress, AStiffBallYieldsNothingToASoftWall) {
+  const geometry::SmoothSurface shell(cap_on_ring());
+  FingerOrder order;
+  order.body.surface = &shell;
+  order.body.tissues = {{10e3, 0.4}};
+  order.body.mirrored = {true, true};
+  order.body.base_level = 40.35e-3 * std::cos(std::numbers::pi / 6.0) - 8e-3;
+  order.radius = 6e-3;
+  order.deepest = 5.5e-3;
+  order.body.per_radius = 4.0;
+  touch(order, shell.surface().vertices.front());
+  FingerPress rigid(order);
+  order.ball = tissue::Isotropic{2050e3, 0.4995};
+  order.share = 0.9957;
+  FingerPress elastic(order);
+  for (const double travel : {1e-3, 5.5e-3}) {
+    const auto one = rigid.at_travel(travel);
+    const auto other = elastic.at_travel(travel);
+    ASSERT_TRUE(one && other) << elastic.reason();
+    EXPECT_NEAR(other->force, one->force, 0.03 * one->force) << travel;  // two meshes
+  }
+}
+
 // An elastic finger as stiff as the tissue, of one radius: Hertz's force, less by the ball's size.
 TEST(FingerPress, AnElasticFingerIsABallOfItsOwnSize) {
   FingerOrder order = plain();
