@@ -19,6 +19,7 @@
 #include "run/answer.h"
 #include "run/family.h"
 #include "run/picture.h"
+#include "scenario/direction.h"
 #include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/schema.h"
@@ -241,12 +242,16 @@ class Explanation {
     double low = level;
     for (const Vec3& vertex : outer_surface->surface().vertices)
       low = std::min(low, vertex.dot(scenario.tissue.base_up));
+    const scene::Box box = scene::box_of(outer_surface->surface().vertices);
+    const double rounding = 1e-9 * (box.high - box.low).norm();
     const std::string& side = scenario.tissue.base_side;
     line("  base         " +
-         (level > low
+         (level > low + rounding
               ? "the surface up to a height of " + rounded_text(unit::mm.from_si(level)) + " mm"
               : std::string("the lowest plane")) +
-         (side.empty() ? "" : " on the side towards " + side) +
+         (side.empty()                   ? ""
+          : scenario::direction_of(side) ? " on the side towards " + side
+                                         : " on the side of the group `" + side + "`") +
          (scenario.tissue.base == tissue::Base::bonded ? " is fixed, " : " slides on the table, ") +
          percent_text(scene::base_area(scenario, outer_surface->surface(), low * Vec3::UnitZ(), 0.0)
                           .of_surface) +

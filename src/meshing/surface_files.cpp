@@ -28,7 +28,9 @@ constexpr std::size_t stl_header = 84;  // bytes: 80 of text, the number of face
 constexpr std::size_t stl_facet = 50;   // bytes: a normal, three corners, two spare ones
 
 void expect_text(const std::string& path, const char* format) {
-  if (!is_text(read_text(path)))
+  const std::string content = read_text(path);
+  const std::size_t end = content.find_last_not_of('\0') + 1;  // zero bytes may follow
+  if (!is_text(end == 0 ? content : content.substr(0, end)))
     fail(path, std::string("is not a text file in ") + format +
                    " format; export it again, or give it the ending of its real format");
 }
@@ -227,13 +229,15 @@ void fail(const std::string& path, const std::string& message) {
 }
 
 bool is_text(const std::string& content) {
-  constexpr std::size_t longest_word = 200;
+  constexpr std::size_t longest_word = 200;  // outside of comments: ZBrush keeps colours there
   std::size_t word = 0;
+  bool comment = false;
   for (const char letter : content) {
     const auto code = static_cast<unsigned char>(letter);
     if ((code < ' ' && (code < '\t' || code > '\r')) || code == 127) return false;
+    comment = letter != '\n' && (comment || letter == '#');
     word = code <= ' ' ? 0 : word + 1;
-    if (word > longest_word) return false;
+    if (word > longest_word && !comment) return false;
   }
   return true;
 }

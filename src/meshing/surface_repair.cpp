@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "geometry/box_tree.h"
 #include "geometry/half_edges.h"
 #include "meshing/cgal_library.h"
 #include "meshing/cgal_repair.h"
@@ -393,21 +394,46 @@ bool cut_each_other(const geometry::Surface& both, std::size_t second) {
   });
 }
 
+// The part that is nearest to a place, without specks and where a larger part is not around it.
+int nearest_part(const std::vector<geometry::Surface>& parts, const Vec3& place) {
+  const double largest = std::abs(geometry::enclosed(parts.front()).volume);
+  geometry::Surface outer;
+  double least = HUGE_VAL;
+  int found = 1;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const double volume = geometry::enclosed(parts[i]).volume;
+    if (std::abs(volume) < speck * largest) break;
+    const geometry::Near near = geometry::BoxTree(parts[i]).nearest(place);
+    const auto& corners = parts[i].triangles[as_index(near.triangle)];
+    Vec3 there = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      there += near.weights[k] * parts[i].vertices[as_index(corners[as_index(k)])];
+    if (near.distance_squared < least && !geometry::encloses(outer, there)) {
+      least = near.distance_squared;
+      found = static_cast<int>(i) + 1;
+    }
+    add_part(outer, parts[i], volume < 0.0);
+  }
+  return found;
+}
+
 // Leaves one part and, where none is asked for, the cavities in it; tells what there was besides.
 std::string choose_part(geometry::Surface& surface, const std::string& name,
-                        const std::optional<int>& wanted) {
+                        const RepairOrder& order) {
+  const std::optional<int>& wanted = order.part;
   std::vector<geometry::Surface> parts = by_volume(surface);
   const int count = static_cast<int>(parts.size());
   if (wanted && *wanted > count)
     throw MeshError("surface `" + name + "`: has " + many(count, "part") + ", and `part` is " +
                     std::to_string(*wanted) + "; give one of them");
   if (count < 2) return "";
-  const int own = wanted.value_or(1);
+  const int own = wanted ? *wanted : order.pressed ? nearest_part(parts, *order.pressed) : 1;
   std::vector<double> volumes;
   for (const geometry::Surface& part : parts) volumes.push_back(geometry::enclosed(part).volume);
   geometry::Surface taken;
   add_part(taken, parts[as_index(own - 1)], volumes[as_index(own - 1)] < 0.0);
-  int specks = 0, hollows = 0;
+  constexpr int most_named = 3;
+  int specks = 0, hollows = 0, beside = 0;
   std::string others, cavities;
   for (int i = 1; i <= count; ++i) {
     if (i == own) continue;
@@ -426,17 +452,20 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
       taken = std::move(both);
       ++hollows;
     }
+    if (!cavity && ++beside > most_named) continue;
     std::string& list = cavity ? cavities : others;
     list += (list.empty() ? "" : ", ") + std::string("part ") + std::to_string(i) +
             near_text(geometry::enclosed(other).centroid) + " with " + percent_text(share) +
             " of its volume" + (cuts ? ", which cuts or touches it" : "");
   }
   surface = std::move(taken);
-  std::string text = "part " + std::to_string(own) + " of " + std::to_string(count) + " is taken";
+  std::string text = "part " + std::to_string(own) + " of " + std::to_string(count) + " is taken" +
+                     (order.pressed && !wanted ? ", the nearest to the finger" : "");
   if (hollows > 0)
     text +=
         std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;
   if (!others.empty()) text += ", without " + others;
+  if (beside > most_named) text += ", and " + many(beside - most_named, "smaller part");
   if (specks > 0) text += ", and " + many(specks, "speck") + " excluded";
   return text;
 }
@@ -448,7 +477,7 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
   std::string fault;
   try {
     check_closed(surface, name);
-    const std::string taken = choose_part(surface, name, order.part);
+    const std::string taken = choose_part(surface, name, order);
     return {std::move(surface), taken.empty() ? "" : "of the surface " + name + ", " + taken};
   } catch (const MeshError& error) {
     if (!order.repair || surface.vertices.empty() || surface.triangles.empty()) throw;
@@ -495,7 +524,7 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
                     percent_text(made.crossing / made.area) +
                     " of its area cut others of the same part" + more(made.crossing / made.area));
   whole.surface = std::move(made.surface);
-  const std::string taken = choose_part(whole.surface, name, order.part);
+  const std::string taken = choose_part(whole.surface, name, order);
   try {
     check_closed(whole.surface, name);
   } catch (const MeshError& error) {

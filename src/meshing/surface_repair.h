@@ -31,6 +31,7 @@ struct RepairOrder {
   bool repair = true;
   double most_missing = 0.02;    // of the area, that holes or crossing triangles may have
   std::optional<int> part = {};  // by falling volume, from 1; empty: the only part, or the largest
+  std::optional<Vec3> pressed = {};  // m; without `part`, the part that is nearest is taken
 };
 
 // The surface itself if it passes check_closed(). Otherwise its vertices within a millionth of its

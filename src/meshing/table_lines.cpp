@@ -15,7 +15,8 @@ TableLines::TableLines(std::string file) : file_(std::move(file)), text_(read_te
 
 bool TableLines::next() {
   constexpr std::string_view gaps = " \t\r,";
-  while (position_ < text_.size()) {
+  // Some programs end their files with zero bytes.
+  while (text_.find_first_not_of('\0', position_) != std::string::npos) {
     const std::size_t end = std::min(text_.find('\n', position_), text_.size());
     current_ = std::string_view(text_).substr(position_, end - position_);
     position_ = end + 1;

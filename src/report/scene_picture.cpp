@@ -237,7 +237,8 @@ std::string travel(const ScenePicture& picture, const View& view) {
   };
   const Point tail = back(before + 43.0);
   return arrow(tail, back(before + 5.0), 12.0) +
-         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)}, " stroke=\"none\"",
+         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)},
+               " stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"",  // over a body
                mm_text(picture.travel));
 }
 
@@ -377,6 +378,14 @@ SceneFrame scene_frame(const ScenePicture& picture) {
     if (!(span > 0.0)) continue;
     double step = std::pow(10.0, std::floor(std::log10(span / 3.0)));
     step *= span / (5.0 * step) >= 3.0 ? 5.0 : span / (2.0 * step) >= 3.0 ? 2.0 : 1.0;
+    // Fewer where the axis is seen from its end.
+    const Vec3 direction = picture.axes.col(axis);
+    const double seen = std::hypot(direction.dot(view.right), direction.dot(view.up));
+    constexpr double apart = 0.04;  // of the size
+    if (const double least = apart * unit::mm.from_si(size) / seen; step < least) {
+      step = std::pow(10.0, std::floor(std::log10(least)));
+      step *= least <= 2.0 * step ? 2.0 : least <= 5.0 * step ? 5.0 : 10.0;
+    }
     const auto at = [&](double along, double away) -> Vec3 {
       Vec3 place = start + away * size * outwards;
       place[axis] = along;

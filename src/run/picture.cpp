@@ -174,19 +174,12 @@ std::vector<Face> thinned(std::vector<Face> all) {
 }
 
 // Marks the surface up to the base's level.
-void mark_held(const scenario::Resolved& scenario, std::vector<Face>& all) {
-  geometry::Surface outer_surface;
-  for (const Face& face : all) {
-    if (face.within >= 0) continue;
-    const int next = static_cast<int>(outer_surface.vertices.size());
-    outer_surface.triangles.push_back({next, next + 1, next + 2});
-    outer_surface.vertices.insert(outer_surface.vertices.end(), face.corners.begin(),
-                                  face.corners.end());
-  }
+void mark_held(const scenario::Resolved& scenario, const geometry::Surface& outer_surface,
+               std::vector<Face>& all) {
   const scene::Box box = scene::box_of(outer_surface.vertices);
-  const double level =
-      scene::base_level(scenario, outer_surface) + 1e-9 * (box.high - box.low).norm();
-  all = cut(all, scenario.tissue.base_up, level, 1e-6 * (box.high - box.low).norm());
+  const double size = (box.high - box.low).norm();
+  const double level = scene::base_level(scenario, outer_surface) + 1e-9 * size;
+  all = cut(all, scenario.tissue.base_up, level, 1e-6 * size);
   for (Face& face : all) {
     const Vec3 middle = (face.corners[0] + face.corners[1] + face.corners[2]) / 3.0;
     face.held = face.within < 0 && middle.dot(scenario.tissue.base_up) <= level;
@@ -217,16 +210,17 @@ record::ScenePicture picture_of(const scene::Scene& scene) {
                                                                      : nullptr;
   const geometry::Body body = mesh ? geometry::Body{} : given_body(scene);
   picture.faces = mesh ? faces(*mesh) : faces(body, scenario);
+  const geometry::Surface outer_surface =
+      mesh ? geometry::outer_surface(*mesh).surface : body.parts.front().surface;
   if (!std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape)) {
-    mark_held(scenario, picture.faces);
+    mark_held(scenario, outer_surface, picture.faces);
     picture.base = scenario.tissue.base == tissue::Base::bonded ? "fixed (bonded base)"
                                                                 : "on a table (slides)";
   }
   picture.materials = {scenario.tissue.material};
   for (const auto& region : scenario.regions) picture.materials.push_back(region.material);
   const std::vector<Face> walls =
-      cavity_faces(mesh ? geometry::outer_surface(*mesh).surface : body.parts.front().surface,
-                   static_cast<int>(picture.materials.size()));
+      cavity_faces(outer_surface, static_cast<int>(picture.materials.size()));
   if (!walls.empty()) picture.materials.emplace_back(record::ScenePicture::cavity);
   picture.faces.insert(picture.faces.end(), walls.begin(), walls.end());
   picture.faces = thinned(std::move(picture.faces));

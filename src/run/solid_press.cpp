@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "run/pressure_map.h"
+#include "scene/surface_touch.h"
 
 namespace palpate::run {
 namespace {
@@ -25,11 +26,29 @@ std::size_t meshes_for(double tolerance) {
   return tolerance >= solid::error_of_two_meshes ? 2 : 3;
 }
 
+// How thin the wall under the finger is if nothing holds its other side, m.
+double free_wall(const scene::Scene& scene) {
+  const scene::SolidBody& body = *scene.solid;
+  const double thickness = scene::thickness_under(body.outer_surface->surface(), body.touched);
+  const Vec3 below = body.touched - thickness * Vec3::UnitZ();
+  const double rounding = 1e-6 * thickness;
+  return below.dot(scene.scenario.tissue.base_up) > body.base_level + rounding ? thickness
+                                                                               : HUGE_VAL;
+}
+
 }  // namespace
 
 SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
-  const std::size_t count = meshes_for(scene.scenario.solver.tolerance);
+  std::size_t count = meshes_for(scene.scenario.solver.tolerance);
   deepest_ = scene::deepest_travel(scene.scenario, scene.finger.whole);
+  // Elements much wider than a wall make it too stiff, by 2.5 times where they are eight times as
+  // wide. They are up to half as large, and a second mesh says what is left of that.
+  constexpr double finest = 2.0;
+  const double width = std::sqrt(scene.finger.sphere_radius * deepest_);
+  if (const double wanted = width / free_wall(scene); wanted > per_radius.front()) {
+    finer_ = std::min(finest, wanted / per_radius.front());
+    count = std::max<std::size_t>(count, 2);
+  }
   asked_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
   included_ = std::any_of(
       scene.scenario.regions.begin(), scene.scenario.regions.end(),
@@ -117,7 +136,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.base_level = given.base_level;
   body.base_up = scenario.tissue.base_up;
   body.mirrored = {true, true};
-  body.per_radius = per_radius / std::clamp(width_, solid::most_narrowed, 1.0);
+  body.per_radius = finer_ * per_radius / std::clamp(width_, solid::most_narrowed, 1.0);
   order.outer_surface = given.outer_surface.get();
   order.centres = finger.centres;
   order.radius = finger.sphere_radius;
@@ -168,6 +187,12 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   // The meshes are made for the deepest travel, and for a width on edges; their elements are larger
   // beside smaller and narrower contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
+  // Meshes on which a wall buckles at other displacements agree here and there by luck, and do not
+  // converge with the square of their size: their largest difference on the way is stated.
+  if (presses_.back()->buckles() && best.force > 0.0) {
+    const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
+    error_ = worst_ = std::max({worst_, error_, (*most - *least) / best.force});
+  }
   error_ *= std::max(1.0, solid::most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();
@@ -206,6 +231,12 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("mirrored_copies", static_cast<double>(finest.body().copies));
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
+  if (const auto snap = presses_.back()->snap())
+    record.warnings.push_back("the force falls from a displacement of " +
+                              rounded_text(unit::mm.from_si(snap->first), 2) + " mm to " +
+                              rounded_text(unit::mm.from_si(snap->second), 2) +
+                              " mm: a wall snaps through there, and a finger that is pressed by a "
+                              "force would jump");
   if (inclusion_size_ < 1.0)
     record.warnings.push_back(
         "an inclusion that touches a border is meshed with a radius that is " +

@@ -13,7 +13,8 @@
 
 namespace palpate::run {
 
-// On one mesh; where `solver.tolerance` is below what it states, on two or three, extrapolated.
+// On one mesh; where `solver.tolerance` is below what it states, or a wall is thin, on two or
+// three, extrapolated.
 //                                                                docs/theory.md [solid_force]
 class SolidPress {
  public:
@@ -63,8 +64,10 @@ class SolidPress {
   std::vector<double> asked_, per_radius_;  // elements in the contact radius: wanted, and taken
   double deepest_ = 0.0;                    // m, travel
   double width_ = 1.0;  // of the contact across a sharp edge, over that on a flat
+  double finer_ = 1.0;  // elements than asked for, in a thin wall
   solid::Moment now_;
   double error_ = 0.0;  // of the last force, a fraction of it
+  double worst_ = 0.0;  // of the forces of a wall that buckles, so far
 };
 
 }  // namespace palpate::run

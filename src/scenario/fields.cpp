@@ -291,7 +291,8 @@ static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
   visitor.count_or("auto",
                    {"part",
                     "Which of several closed parts the body is, by falling volume, filled; `auto`: "
-                    "the largest, with the parts inside it as cavities, and a note."},
+                    "the largest, or the one nearest to `finger.at`, with the parts inside it as "
+                    "cavities, and a note."},
                    shape.part, between(1, 1e6));
 }
 static void fields(FieldVisitor& visitor, AsMeshed& shape) {

@@ -274,9 +274,11 @@ std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {
 
 meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& folder) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
+  meshing::RepairOrder order{file.repair, file.repair_up_to, file.part};
+  if (const auto& at = scenario.finger.at; at.size() == 3 && !scenario.uniform())
+    order.pressed = Vec3(at[0], at[1], at[2]);
   return meshing::whole_surface(
-      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file,
-      {file.repair, file.repair_up_to, file.part});
+      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file, order);
 }
 
 meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {

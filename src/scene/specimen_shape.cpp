@@ -181,6 +181,8 @@ SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
   std::string key = folder + "\n" + file.file + "\n" + file.unit + (file.repair ? "\nr" : "\n") +
                     number_text(file.repair_up_to) + "\n" + std::to_string(file.part.value_or(0));
+  if (!scenario.uniform())
+    for (const double at : scenario.finger.at) key += " " + number_text(at);
   for (int i = 0; i < 9; ++i) key += " " + number_text(scenario.tissue.turn(i / 3, i % 3));
   const std::lock_guard lock(looking_up_);
   return surfaces_[key];

@@ -137,34 +137,6 @@ double to_creases(const geometry::SmoothSurface& surface, const Vec3& point, con
   return nearest;
 }
 
-// How far the body reaches straight down from a point of its surface, m.
-double thickness_under(const geometry::Surface& surface, const Vec3& point) {
-  constexpr double own = 1e-3;  // of the height: less is the point's own triangle
-  double low = point.z(), high = point.z();
-  for (const Vec3& vertex : surface.vertices) {
-    low = std::min(low, vertex.z());
-    high = std::max(high, vertex.z());
-  }
-  double end = low;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const Vec3 twice = geometry::twice_area(surface, static_cast<int>(t));
-    if (twice.z() >= 0.0) continue;  // an underside
-    const auto corner = [&](std::size_t k) -> const Vec3& {
-      return surface.vertices[as_index(surface.triangles[t][k])];
-    };
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 along = corner((k + 1) % 3) - corner(k), to = point - corner(k);
-      inside = inside && along.x() * to.y() - along.y() * to.x() <= 0.0;
-    }
-    if (!inside) continue;
-    const double z =
-        corner(0).z() - (twice.head<2>().dot((point - corner(0)).head<2>())) / twice.z();
-    if (z < point.z() - own * (high - low)) end = std::max(end, z);
-  }
-  return point.z() - end;
-}
-
 // The law of a rigid finger on a flat: that of an elastic one changes little here.
 contact::SphereLaw law_on_flat(const Scenario& scenario) {
   const contact::Elastic tissue{scenario.tissue.young_modulus, scenario.tissue.poisson_ratio};
@@ -216,6 +188,33 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
 }
 
 }  // namespace
+
+double thickness_under(const geometry::Surface& surface, const Vec3& point) {
+  constexpr double own = 1e-3;  // of the height: less is the point's own triangle
+  double low = point.z(), high = point.z();
+  for (const Vec3& vertex : surface.vertices) {
+    low = std::min(low, vertex.z());
+    high = std::max(high, vertex.z());
+  }
+  double end = low;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3 twice = geometry::twice_area(surface, static_cast<int>(t));
+    if (twice.z() >= 0.0) continue;  // an underside
+    const auto corner = [&](std::size_t k) -> const Vec3& {
+      return surface.vertices[as_index(surface.triangles[t][k])];
+    };
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 along = corner((k + 1) % 3) - corner(k), to = point - corner(k);
+      inside = inside && along.x() * to.y() - along.y() * to.x() <= 0.0;
+    }
+    if (!inside) continue;
+    const double z =
+        corner(0).z() - (twice.head<2>().dot((point - corner(0)).head<2>())) / twice.z();
+    if (z < point.z() - own * (high - low)) end = std::max(end, z);
+  }
+  return point.z() - end;
+}
 
 geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& surface,
                                               const geometry::SurfacePoint& at,

@@ -55,6 +55,9 @@ struct SurfaceTouch {
                                                             const geometry::SurfacePoint& at,
                                                             const scenario::Resolved& scenario);
 
+// How far the body reaches straight down from a point (m) of its surface, m.
+[[nodiscard]] double thickness_under(const geometry::Surface& surface, const Vec3& point);
+
 // How wide the contact on a sharp edge is across it, over that on a flat: where the undeformed
 // sphere, at the deepest travel (m), overlaps sides with slopes s to it,
 // x = R (sqrt(s^2 + 2 d/R) - s). `centre` is that of the sphere at first touch, m. 1 away from

@@ -319,19 +319,30 @@ void FingerPress::press_ball(double force) {
                               .share = 1.0 - order_.share}});
     ball_press_->begin(Vec3::Zero());
   }
-  while (reason_.empty() &&
-         (ball_.points.size() < 3 || ball_.points.back().force * upright() < force)) {
-    const double next = ball_.points.empty()   ? 0.25 * part
+  const auto bears = [&] {
+    return !ball_.points.empty() && ball_.points.back().force * upright() >= force;
+  };
+  // Hertz's depth, but for a factor: a finger on a soft wall hardly yields.
+  const double modulus = order_.ball->young_modulus;
+  const double expected = std::pow(force / (modulus * std::sqrt(order_.radius)), 2.0 / 3.0);
+  while (reason_.empty() && ((ball_.points.size() < 3 && ball_.reached < part) || !bears())) {
+    const double next = ball_.reached == 0.0   ? std::min(0.25 * part, expected)
                         : ball_.reached < part ? 2.0 * ball_.reached
                                                : 1.5 * ball_.reached;
     const auto found = ball_press_->go(-next / (1.0 - order_.share) * Vec3::UnitZ());
-    if (!found || !(found->normal() > 0.0)) {
+    if (!found && bears()) return;
+    if (!found) {
       reason_ = "the solid finds no equilibrium of the finger's ball beyond a displacement of " +
                 quantity_text(ball_.reached, unit::mm) + "; press less deep";
       return;
     }
     ball_.reached = next;
-    ball_.points.push_back({next - found->lost, found->normal(), {}});
+    // A small contact may touch no point of the ball's elements, or lose its travel in the penalty;
+    // so may one around the whole ball, which no soft tissue reaches.
+    constexpr double least = 0.1;
+    const double travel = std::max(next - found->lost, least * next);
+    if (found->normal() > 0.0 && (ball_.points.empty() || travel > ball_.points.back().travel))
+      ball_.points.push_back({travel, found->normal(), {}});
   }
 }
 
@@ -393,35 +404,90 @@ std::optional<Answer> FingerPress::go(double travel) {
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) {
     const double reached = order_.touch.finger.z() - press_->reached().z();
-    reason_ = "the solid finds no equilibrium beyond a displacement of " +
-              rounded_text(unit::mm.from_si(reached), 3) +
-              " mm: the tissue folds there; press less deep";
+    reason_ = reached > 0.0 ? "the solid finds no equilibrium beyond a displacement of " +
+                                  rounded_text(unit::mm.from_si(reached), 3) +
+                                  " mm: the tissue folds, or a wall buckles there; press "
+                                  "less deep"
+                            : "the body gives way sideways as soon as the finger touches it: press "
+                              "it nearer to where it is held, or across its length "
+                              "(`finger.towards`), or hold more of it (`tissue.base_height`, "
+                              "`tissue.base_side`)";
   }
   return found;
 }
 
 // Points at a quarter and half of the order's travel and there, and beyond it by up to half more at
-// a time: the curve does not depend on what was asked first. Where there is no equilibrium, the
-// last point is as deep as one was found.
+// a time: the curve does not depend on what was asked first. Where it is no power law, it is found
+// again in even steps. Where there is no equilibrium, the last point is as deep as one was found.
 bool FingerPress::reach(double travel) {
+  // Below this the finger touches nothing: the wall has jumped to its other side.
+  constexpr double bearing = 1e-8;  // of E, radius and travel
+  const double modulus = order_.body.tissues.front().young_modulus;
+  bool lost = false;
   const auto take = [&](double at, const std::optional<Answer>& answer) {
     if (!answer) return;
+    lost = answer->normal() < bearing * modulus * order_.radius * at;
+    if (lost && in_steps_ && !tissue_.points.empty()) {
+      reason_ = "a wall snaps away from the finger beyond a displacement of " +
+                rounded_text(unit::mm.from_si(tissue_.reached / order_.share), 3) +
+                " mm; press less deep";
+      return;
+    }
     tissue_.reached = at;
-    if (answer->normal() > 0.0)
+    if (!lost && at > answer->lost)
       tissue_.points.push_back(
           {at - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
   };
+  constexpr double steps = 16.0;
   const double deepest = order_.share * order_.deepest;
   while (reason_.empty() && tissue_.reached < std::max(deepest, travel)) {
     double next = tissue_.reached > 0.0 ? 2.0 * tissue_.reached : 0.25 * deepest;
     if (tissue_.reached >= deepest) next = std::min(next, 1.5 * tissue_.reached);
+    if (in_steps_) next = (std::round(steps * tissue_.reached / deepest) + 1.0) / steps * deepest;
     take(next, go(next));
+    if (!in_steps_ && (lost || !is_power_law() || tissue_.points.empty())) {
+      in_steps_ = true;
+      reason_.clear();
+      tissue_ = {};
+      press_->begin(order_.touch.finger);
+      continue;
+    }
     if (reason_.empty()) continue;
+    if (lost) break;
     constexpr double farther = 1.02;
     const double found = order_.share * (order_.touch.finger.z() - press_->reached().z());
     if (found > farther * tissue_.reached) take(found, press_->go(press_->reached()));
   }
   return reason_.empty() || (!order_.ball && travel <= tissue_.reached);
+}
+
+// The exponent of the force over the travel is 1.5 of a small contact, 1 of a plate that bends, and
+// rises with depth; less, or a sudden rise, is a wall that gives way.
+bool FingerPress::is_power_law() const {
+  constexpr double least = 0.8;
+  constexpr double most_change = 1.0;
+  double before = HUGE_VAL;
+  for (std::size_t i = 1; i < tissue_.points.size(); ++i) {
+    const Point& one = tissue_.points[i - 1];
+    const Point& next = tissue_.points[i];
+    const double power = std::log(next.force / one.force) / std::log(next.travel / one.travel);
+    if (power < least || power > before + most_change) return false;
+    before = power;
+  }
+  return true;
+}
+
+std::optional<std::pair<double, double>> FingerPress::snap() const {
+  std::optional<std::pair<double, double>> range;
+  for (std::size_t i = 1; i < tissue_.points.size(); ++i) {
+    const Point& one = tissue_.points[i - 1];
+    const Point& next = tissue_.points[i];
+    const bool falls = next.force < one.force;
+    if (range && !falls) break;
+    if (falls && !range) range.emplace(one.travel, next.travel);
+    if (falls) range->second = next.travel;
+  }
+  return range;
 }
 
 double FingerPress::shared(const Curve& tissue, double travel, double power) const {

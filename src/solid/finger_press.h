@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/smooth_surface.h"
@@ -79,10 +80,11 @@ struct Moment {
 };
 
 // Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
-// its points at a quarter and half of the deepest travel and there, and the logarithm of the force
-// is a parabola of that of the travel between them. An elastic finger is a ball of its own radius:
-// each body takes its share of the curvature of the gap between them, ball and tissue are pressed
-// by the rigid surface between their shares, and their travels at equal forces add.
+// its points at a quarter and half of the deepest travel and there, or where a wall buckles at
+// every sixteenth, and the logarithm of the force is a parabola of that of the travel between them.
+// An elastic finger is a ball of its own radius: each body takes its share of the curvature of the
+// gap between them, ball and tissue are pressed by the rigid surface between their shares, and
+// their travels at equal forces add.
 //                                                                        docs/theory.md
 //                                                                        [solid_force]
 class FingerPress {
@@ -99,6 +101,11 @@ class FingerPress {
   [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  // Whether a wall gives way, as far as the curve has been found, so that it has sixteen points.
+  [[nodiscard]] bool buckles() const { return in_steps_; }
+  // The displacements (m) between which the force falls first, as far as the curve has been found:
+  // the wall snaps through.
+  [[nodiscard]] std::optional<std::pair<double, double>> snap() const;
 
   // The surface that may be met at a place beside the first touch, displaced, with all copies that
   // the mirrors make: the nodes of its faces, in the order of solid::Face. With the finger there.
@@ -127,6 +134,7 @@ class FingerPress {
   // Finds the curve of the tissue up to a travel of its own (m); false where there is no
   // equilibrium.
   [[nodiscard]] bool reach(double travel);
+  [[nodiscard]] bool is_power_law() const;
   [[nodiscard]] std::optional<Answer> go(double travel);
   [[nodiscard]] static Moment moment_of(const Answer& answer, double force);
   // The press at a place beside the touch, made when it is first asked for; null where the finger
@@ -149,6 +157,7 @@ class FingerPress {
   Vec3 mirror_ = Vec3::Zero();  // m, a point of the planes of symmetry
   std::unique_ptr<Press> press_;
   Curve tissue_;
+  bool in_steps_ = false;
   std::unique_ptr<Press> ball_press_;  // of an elastic finger
   Curve ball_;
   Vec3 place_ = Vec3::Zero();  // m, of the last press beside the touch

@@ -6,6 +6,7 @@
 #include <queue>
 #include <set>
 
+#include "base/error.h"
 #include "geometry/smooth_surface.h"
 #include "meshing/cgal_library.h"
 
@@ -223,6 +224,7 @@ void SurfaceNet::without_crossings(std::optional<int> whole,
 
 void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::optional<int> whole) {
   constexpr double longest = 1.6;
+  constexpr std::size_t most_vertices = 200'000;
   struct Long {
     double excess;  // length over wanted length
     Edge edge;
@@ -247,7 +249,19 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
       const Edge edge = waiting.top().edge;
       waiting.pop();
       if (!at_.contains(edge)) continue;
-      const int middle = split(edge, placed(edge, 0.5));
+      const Vec3& a = vertices_[as_index(edge[0])];
+      const Vec3& b = vertices_[as_index(edge[1])];
+      // Where the nearest place of the surface is on another wall, or near an end, the parts would
+      // not become shorter. (Half a circle has 0.71.)
+      constexpr double longest_part = 0.8;
+      Vec3 there = placed(edge, 0.5);
+      if (std::max((there - a).norm(), (there - b).norm()) > longest_part * (a - b).norm())
+        there = 0.5 * (a + b);
+      if (vertices_.size() > most_vertices)
+        throw MeshError(
+            "its surface would have more than 200 000 vertices, so small is the contact beside "
+            "the body; press deeper, with a larger finger, or a part of the body");
+      const int middle = split(edge, there);
       std::set<Edge> near;
       for (const int end : edge)
         for (const int t : at_.at({end, middle}))

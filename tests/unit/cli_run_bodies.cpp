@@ -11,6 +11,7 @@
 #include "geometry/shapes.h"
 #include "program.h"
 #include "record/csv.h"
+#include "revolved_bodies.h"
 #include "surface_file.h"
 
 namespace palpate::test {
@@ -37,6 +38,10 @@ class RunBodies : public testing::Test {
         record::read_csv((folder_ / "out/press/force_indentation.csv").string());
     return std::get<double>(table.rows.back()[as_index(table.find("force_N"))]);
   }
+  double finding(const std::string& name) const {
+    const record::Table table = record::read_csv((folder_ / "out/press/findings.csv").string());
+    return std::get<double>(table.rows.front()[as_index(table.find(name))]);
+  }
   // A column of 12 x 12 x 24 mm, turned about y by an angle in degrees.
   std::string column(double degrees) {
     geometry::Surface surface =
@@ -55,6 +60,33 @@ class RunBodies : public testing::Test {
 
   TemporaryFolder folder_;
 };
+
+// A dome of 1 mm on a rim, without elements as wide as eight walls, and its error from two meshes.
+TEST_F(RunBodies, a_thin_wall_is_pressed_on_two_meshes) {
+  Profile profile;
+  constexpr double half = M_PI / 6.0;
+  constexpr int parts = 20;
+  for (int i = 0; i < parts; ++i)
+    profile.push_back({40.5 * std::sin(half * i / parts), 40.5 * std::cos(half * i / parts)});
+  const double rim = 40.5 * std::cos(half);
+  add_line(profile, {40.5 * std::sin(half), rim}, {26.0, rim}, 3.0);
+  add_line(profile, {26.0, rim}, {26.0, rim - 8.0}, 3.0);
+  add_line(profile, {26.0, rim - 8.0}, {39.5 * std::sin(half), rim - 8.0}, 3.0);
+  for (int i = parts; i >= 0; --i)
+    profile.push_back({39.5 * std::sin(half * i / parts), 39.5 * std::cos(half * i / parts)});
+  (void)write_surface(profile, 3.0, folder_ / "cap.off");
+  const std::string cap = "shape = { kind = \"file\", file = \"cap.off\", unit = \"mm\" }\n";
+  const Ended one = run(cap, "", "", "3 mm");
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_EQ(finding("meshes"), 2.0);
+  EXPECT_GT(finding("stated_error"), 0.03);
+  const double stated = finding("stated_error") * force();
+  const double found = force();
+  const Ended finer =
+      palpate(folder_.path(), {"run", "press.toml", "--force", "--set", "solver.tolerance=0.005"});
+  ASSERT_EQ(finer.code, 0) << finer.err;
+  EXPECT_NEAR(found, force(), stated);
+}
 
 TEST_F(RunBodies, a_turned_column_is_held_as_a_straight_one) {
   const auto at = [](double degrees) {

@@ -252,6 +252,14 @@ TEST_F(SurfaceFiles, line_ends_of_other_systems_and_a_missing_last_one) {
   }
 }
 
+// ZBrush ends its files with a zero byte, and keeps colours in comments.
+TEST_F(SurfaceFiles, long_comments_and_zero_bytes_at_the_end_are_left_out) {
+  const geometry::Surface want = egg(4, 5);
+  expect_same(read("b.obj", "#MRGB " + std::string(512, 'f') + "\n" + obj(want)), want, 1.0);
+  expect_same(read("a.obj", obj(want) + std::string(1, '\0')), want, 1.0);
+  expect_same(read("a.off", off(want) + std::string(3, '\0')), want, 1.0);
+}
+
 struct Comma : std::numpunct<char> {
   [[nodiscard]] char do_decimal_point() const override { return ','; }
   [[nodiscard]] char do_thousands_sep() const override { return '.'; }

@@ -106,6 +106,35 @@ TEST(SurfaceRepair, specks_are_left_out_and_one_of_several_parts_is_taken) {
   EXPECT_NEAR(geometry::enclosed(second).volume, 0.125 * geometry::enclosed(body()).volume, 1e-12);
 }
 
+// A place inside the larger one is nearest to the walls of neither the cavity nor the part that
+// cuts.
+TEST(SurfaceRepair, the_part_nearest_to_the_finger_is_pressed) {
+  const Surface two = with(body(), body(), Vec3(0.2, 0, 0), 0.5, false);
+  const double volume = geometry::enclosed(body()).volume;
+  const WholeSurface second = whole_surface(two, "paw", {.pressed = Vec3(0.25, 0.0, 0.05)});
+  EXPECT_NEAR(geometry::enclosed(second.surface).volume, 0.125 * volume, 1e-12);
+  EXPECT_NE(second.warning.find("part 2 of 2 is taken, the nearest to the finger"),
+            std::string::npos)
+      << second.warning;
+  const Vec3 left(-0.01, 0.02, 0.02);
+  EXPECT_NEAR(geometry::enclosed(whole_surface(two, "paw", {.pressed = left}).surface).volume,
+              volume, 1e-12);
+  const Vec3 shift(0.02, 0.015, 0.01);
+  const Surface hollow = with(body(), body(), shift, 0.5, true);
+  const geometry::Enclosed cavity = geometry::enclosed(with({}, body(), shift, 0.5, false));
+  EXPECT_NEAR(
+      geometry::enclosed(whole_surface(hollow, "paw", {.pressed = cavity.centroid}).surface).volume,
+      0.875 * volume, 1e-12);
+}
+
+TEST(SurfaceRepair, the_smallest_of_many_parts_are_counted) {
+  Surface many = body();
+  for (int i = 1; i < 7; ++i) many = with(many, body(), Vec3(0.1 * i, 0, 0), 0.5, false);
+  const std::string text = told(many, rounding);
+  EXPECT_NE(text.find("without part 2 near ("), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(" of its volume, and 3 smaller parts")) << text;
+}
+
 // A public rabbit has legs, eyes and teeth that stand in its body.
 TEST(SurfaceRepair, a_part_that_cuts_the_one_taken_is_neither_a_cavity_nor_a_fault) {
   for (const double scale : {0.9, 0.5}) {

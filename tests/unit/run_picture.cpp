@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "revolved_bodies.h"
 #include "scene_text.h"
 
 namespace palpate::run {
@@ -40,6 +41,27 @@ TEST(Picture, TheSupportEndsAtItsHeight) {
   const double r = 30.0, l = 80.0, angle = std::acos(0.8);
   const double of_ends = 2.0 * r * r * (angle - 0.8 * 0.6);
   EXPECT_NEAR(held / area, (2.0 * r * l * angle + of_ends) / (2.0 * M_PI * r * (l + r)), 0.002);
+}
+
+// A plate on a stem whose flat end is 0.8 % of the surface, but sharp.
+TEST(Picture, ShowsTheBaseThatIsComputed) {
+  const test::TemporaryFolder folder;
+  test::Profile profile;
+  test::add_line(profile, {0.0, 30.0}, {30.0, 30.0}, 6.0);
+  test::add_line(profile, {30.0, 30.0}, {30.0, 24.0}, 6.0);
+  test::add_line(profile, {30.0, 24.0}, {4.0, 24.0}, 6.0);
+  test::add_line(profile, {4.0, 24.0}, {4.0, 0.0}, 4.0);
+  test::add_base(profile, 4.0, 2.0);
+  test::write_surface(profile, 4.0, folder / "stem.off");
+  const record::ScenePicture picture = picture_of(test::scene_of(
+      "[tissue]\nshape = { file = \"" + (folder / "stem.off").string() +
+      "\", unit = \"mm\" }\n[solver]\nmodel = \"solid\"\n[[step]]\nkind = \"indent\"\n"));
+  int held = 0;
+  for (const Face& face : picture.faces) {
+    held += face.held ? 1 : 0;
+    if (face.held) EXPECT_LT(heights(face)[1], 1e-6);
+  }
+  EXPECT_GT(held, 4);
 }
 
 TEST(Picture, ALayerEndsAtItsHeight) {

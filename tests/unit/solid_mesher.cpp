@@ -67,6 +67,21 @@ TEST(SurfaceNet, MovesNoVertexThroughAnotherSheet) {
   EXPECT_EQ(crossing(2), 0u);
 }
 
+// Every place between corners is nearest to a corner, as on a fold: halves are as long as the
+// whole.
+TEST(SurfaceNet, EndsWhereTheTrueSurfaceIsElsewhere) {
+  const geometry::Surface square{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)},
+                                 {{0, 1, 2}, {0, 2, 3}}};
+  SurfaceNet net(square, {2, 2}, [](const Vec3& point, std::span<const int>) {
+    return Vec3(std::round(point.x()), std::round(point.y()), 0.0);
+  });
+  net.refine([](const Vec3&) { return 0.1; });
+  EXPECT_GT(net.vertices().size(), 60u);
+  EXPECT_LT(net.vertices().size(), 2000u);
+  SurfaceNet fine(square, {2, 2}, [](const Vec3& point, std::span<const int>) { return point; });
+  EXPECT_THROW(fine.refine([](const Vec3&) { return 1e-3; }), MeshError);
+}
+
 // "Skin over fat with a lump": a later region replaces an earlier one, also where a slab
 // cuts it.
 TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
