@@ -181,6 +181,12 @@ TEST(Arguments, HelpAndVersionAreAnswers) {
     if (verb.name == "help") continue;
     const std::string text = answer({verb.name, "--help"});
     EXPECT_NE(text.find("Example: palpate " + verb.name), std::string::npos) << verb.name;
+    for (const commands::Command& inner : verb.commands) {
+      const std::string words = verb.name + " " + inner.name;
+      EXPECT_NE(answer({verb.name, inner.name, "--help"}).find("Example: palpate " + words),
+                std::string::npos)
+          << words;
+    }
   }
   EXPECT_NE(answer({}).find("palpate run quickstart"), std::string::npos);
   EXPECT_NE(answer({"golden", "add", "-h"}).find("Usage: palpate golden add"), std::string::npos);
