@@ -522,6 +522,14 @@ std::string early_end(const record::CaseRecord& record) {
   return record.reason + "; last stable time " + rounded_text(record.last_stable_time) + " s";
 }
 
+// `a sphere of radius 11 mm`
+std::string finger_text(const scenario::Case& one) {
+  const scenario::Finger& finger = one.scenario.finger;
+  return (finger.spheres == 1 ? std::string("a sphere")
+                              : std::to_string(finger.spheres) + " spheres that stand for one") +
+         " of radius " + rounded_text(unit::mm.from_si(finger.radius), 3) + " mm";
+}
+
 // What was tested, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a sphere of
 // radius 11 mm.`
 std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
@@ -531,16 +539,21 @@ std::string tested(const scenario::Case& one, const record::CaseRecord& record) 
                                       one.materials.tissue.young_modulus.value)),
                                   3) +
                      " kPa, nu " + rounded_text(scenario::poisson_ratio(one), 3);
-  if (!one.scenario.regions.empty())
-    text += ", with " + std::to_string(one.scenario.regions.size()) +
-            (one.scenario.regions.size() == 1 ? " region" : " regions") + " of other tissue";
+  if (const std::size_t regions = one.scenario.regions.size(); regions > 0)
+    text += ", with " + std::to_string(regions) + (regions == 1 ? " region" : " regions") +
+            " of other tissue";
   const double depth = finding_number(record, "peak_travel_mm");
-  if (!std::isfinite(depth)) return text + ".";
-  const int spheres = one.scenario.finger.spheres;
-  return text + ", pressed " + rounded_text(depth, 3) + " mm by " +
-         (spheres == 1 ? std::string("a sphere")
-                       : std::to_string(spheres) + " spheres that stand for one") +
-         " of radius " + rounded_text(unit::mm.from_si(one.scenario.finger.radius), 3) + " mm.";
+  if (std::isfinite(depth))
+    text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one);
+  return text + ".";
+}
+
+// The finger of several cases, if it is the same in all.
+std::string common_finger(const scenario::Family& family) {
+  const std::string text = finger_text(family.cases.front());
+  const bool same = std::all_of(family.cases.begin(), family.cases.end(),
+                                [&](const auto& one) { return finger_text(one) == text; });
+  return same && !family.base.uniform() ? "Pressed by " + text + "." : "";
 }
 
 // One case: the force, its error, the model, and what is neglected; several: a table of the same.
@@ -563,6 +576,7 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     for (const record::CaseRecord& record : records)
       if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
     page.answer(said_once(ends));
+    if (const std::string finger = common_finger(family); !finger.empty()) page.answer({finger});
     if (records.size() <= most_answers)
       page.answer(
           element("div", page::table("Every case", case_table(records)), {{"class", "whole"}}));
