@@ -458,9 +458,11 @@ void draw(const std::string& file, const scene::Scene& scene, const std::string&
   const record::ScenePicture picture = run::picture_of(scene);
   if (file.ends_with(".svg")) return write_atomically(file, report::scene_svg(picture, title));
   page::Page page(title, "scene");
+  const std::size_t end = std::min(text.find("\n\n"), text.size());  // of the sentences
+  page.answer(split(text.substr(0, end), '\n'));
   page.section("Scene", report::scene_view(picture, title));
   page.script(report::scene_script());
-  page.section("What would be computed", page::element("pre", text));
+  page.section("What would be computed", page::element("pre", trimmed(text.substr(end))));
   write_atomically(file, page.html());
 }
 
