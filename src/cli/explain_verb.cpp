@@ -308,9 +308,9 @@ class Explanation {
       const scenario::Resolved::Region& region = regions[i];
       std::string text = "  region " + std::to_string(i + 1) + "     ";
       text.resize(15, ' ');
-      if (const auto* lump = std::get_if<scenario::Lump>(&region.part))
-        text += "a sphere of radius " + quantity_text(lump->radius, unit::mm) + " around " +
-                place_text({lump->centre[0], lump->centre[1], lump->centre[2]});
+      if (const auto* inclusion = std::get_if<scenario::Inclusion>(&region.part))
+        text += "a sphere of radius " + quantity_text(inclusion->radius, unit::mm) + " around " +
+                place_text({inclusion->centre[0], inclusion->centre[1], inclusion->centre[2]});
       else if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
         text += "from " + quantity_text(slab->bottom, unit::mm) + " to " +
                 quantity_text(slab->top, unit::mm) + " in height";
