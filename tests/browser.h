@@ -39,7 +39,7 @@ inline Ended browse(const fs::path& page, Scheme scheme, const std::vector<std::
   return run_program({.arguments = arguments, .program = "chromium"});
 }
 
-// A page that opens others in frames of 360 and 1100 px and lists their faults.
+// A page that opens others in frames of 360, 390 and 1400 px and lists their faults.
 inline std::string inspection(const std::vector<std::string>& pages) {
   std::string list;
   for (const std::string& page : pages) list += "\"" + page + "\",";
@@ -55,11 +55,36 @@ function ground(element, view) {
     const c = parts(view.getComputedStyle(e).backgroundColor);
     if (c.length === 3 || c[3] > 0) return c.slice(0, 3);
   }
-  return matchMedia("(prefers-color-scheme: dark)").matches ? [18, 18, 18] : [255, 255, 255];
+  return matchMedia("(prefers-color-scheme: dark)").matches ? [23, 23, 23] : [255, 255, 255];
+}
+const ratio = (a, b) => (Math.max(a, b) + .05) / (Math.min(a, b) + .05);
+// A colour of a figure as the page shows it: filter: invert(.91) hue-rotate(180deg) in the dark.
+function shown(colour) {
+  const c = parts(colour).slice(0, 3);
+  if (!matchMedia("(prefers-color-scheme: dark)").matches) return c;
+  const i = c.map(x => 255 * .91 - .82 * x);
+  return [[-.574, 1.43, .144], [.426, .43, .144], [.426, 1.43, -.856]].map(row =>
+    Math.min(255, Math.max(0, row.reduce((sum, m, k) => sum + m * i[k], 0))));
+}
+// Lines below 3 to 1 and letters below 4.5 to 1; the grid is no line.
+function figures(page, view, all) {
+  const white = light(shown("rgb(255,255,255)")), poor = new Set();
+  for (const e of all(".plot svg path, .plot svg line, .plot svg polyline, .plot svg use, .plot svg text")) {
+    const style = view.getComputedStyle(e), letters = e.tagName === "text";
+    const colour = letters ? style.fill : style.stroke !== "none" ? style.stroke : style.fill;
+    if (colour === "none" || colour === "rgb(220, 220, 220)" || colour.startsWith("url") ||
+        colour === "rgb(255, 255, 255)" || e.closest("defs")) continue;
+    const seen = ratio(light(shown(colour)), white);
+    if (seen < (letters ? 4.5 : 3)) poor.add((letters ? "letters" : "lines") + " of " + colour + " with " + seen.toFixed(2));
+  }
+  poor.forEach(what => say(page, "has " + what + " to 1 in a figure"));
 }
 function look(page, width, frame) {
   const d = frame.contentDocument, view = frame.contentWindow, all = q => [...d.querySelectorAll(q)];
+  for (const t of all(".wide"))
+    if (!t.closest("details:not([open])") && t.scrollWidth > t.clientWidth + 1) say(page, "has a table that is cut at " + width + " px");
   all("details").forEach(e => e.open = true);
+  figures(page, view, all);
   const wide = d.documentElement.scrollWidth;
   if (wide > width) say(page, "is " + wide + " px wide in a window of " + width);
   const ids = all("[id]").map(e => e.id);
@@ -98,14 +123,13 @@ function look(page, width, frame) {
   for (let node; (node = walk.nextNode());) {
     const e = node.parentElement;
     if (!node.data.trim() || e.closest("svg,script,style") || !e.offsetParent) continue;
-    const a = light(parts(view.getComputedStyle(e).color)), b = light(ground(e, view));
-    const ratio = (Math.max(a, b) + .05) / (Math.min(a, b) + .05);
-    if (ratio < 4.5) say(page, "has a contrast of " + ratio.toFixed(2) + " in " + node.data.slice(0, 30));
+    const seen = ratio(light(parts(view.getComputedStyle(e).color)), light(ground(e, view)));
+    if (seen < 4.5) say(page, "has a contrast of " + seen.toFixed(2) + " in " + node.data.slice(0, 30));
   }
   return all("h2").length;
 }
 (async () => {
-  for (const page of pages) for (const width of [360, 1100]) {
+  for (const page of pages) for (const width of [360, 390, 1400]) {
     const frame = document.createElement("iframe");
     frame.style.width = width + "px"; frame.style.height = "800px"; frame.style.border = "0";
     document.body.append(frame);
@@ -146,7 +170,7 @@ inline std::vector<std::string> faults_of_pages(const fs::path& folder,
     else if (!fs::exists((folder / of).parent_path() / to))
       faults.push_back(of + " links to " + to + ", which is not there");
   }
-  if (seen != 2 * pages.size()) faults.push_back("not every page was opened at both widths");
+  if (seen != 3 * pages.size()) faults.push_back("not every page was opened at each width");
   return faults;
 }
 

@@ -453,9 +453,9 @@ std::string guides(const Scatter& scatter) {
          "set arrow 2 from graph 0, first " +
          tolerance + " to graph 1, first " + tolerance +
          " nohead dashtype (6,4) linecolor rgb '#808080'\n"
-         "set label 2 'tolerance' at graph 0.01, first " +
+         "set label 2 'tolerance' at graph 0.99, first " +
          tolerance +
-         " offset 0,0.5 left textcolor rgb '#606060' font ',12'\n"
+         " offset 0,0.5 right textcolor rgb '#606060' font ',12'\n"
          "set arrow 3 from graph 0, first " +
          floor + " to graph 1, first " + floor +
          " nohead linewidth 1.5 linecolor rgb '#808080'\n"

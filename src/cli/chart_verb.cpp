@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "base/index.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
 #include "base/whole_folder.h"
@@ -100,6 +101,16 @@ void add_headline(page::Page& page, const chart::CaseChart& chart) {
                     " the tolerance of " + percent_text(chart.tolerance));
 }
 
+// `yes` and nothing for 1 and 0 in the columns that mark configurations.
+record::Table with_words(record::Table table) {
+  for (const char* mark : {"pareto", "knee", "auto"})
+    if (const int at = table.find(mark); at >= 0)
+      for (auto& row : table.rows)
+        if (const auto* number = std::get_if<double>(&row[as_index(at)]))
+          row[as_index(at)] = std::string(*number == 1.0 ? "yes" : "");
+  return table;
+}
+
 // The page of a chart. `text` is chart.md, whose sentences are the answer: what its lists and its
 // table say stands in the table of variants.
 void write_page(const scenario::Family& family, const std::vector<chart::CaseChart>& charts,
@@ -115,23 +126,26 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
       sentences.push_back(line);
   if (charts.size() == 1 && !sentences.empty())  // the reference is less than the answer
     std::rotate(sentences.begin(), sentences.begin() + 1, sentences.end());
-  page.answer(sentences);
+  const std::size_t first = several ? sentences.size() : std::min<std::size_t>(sentences.size(), 1);
+  page.answer({sentences.begin(), sentences.begin() + static_cast<std::ptrdiff_t>(first)});
   page.section("Figures", page::all_figures(folder, [](const std::string&) {
                  return "Error against cost of every configuration; the line joins those that no "
                         "other beats in both.";
                }));
   constexpr std::size_t most = 200;
-  const std::vector<std::string> results{several ? "case" : "status",
-                                         "configuration",
-                                         "claimed_error",
-                                         "cost_us_per_ms",
-                                         "total_s",
-                                         "pareto",
-                                         "knee",
-                                         "auto"};
-  page.section("Configurations",
-               page::table_of_file("Every configuration that was tried",
-                                   page::columns_of(table, results), "chart.csv", most));
+  page.section(
+      "In words",
+      page::paragraphs({sentences.begin() + static_cast<std::ptrdiff_t>(first), sentences.end()}),
+      page::Page::Shown::folded);
+  std::vector<std::string> results{
+      "configuration", "claimed_error", "cost_us_per_ms", "total_s", "pareto", "knee", "auto"};
+  if (several)
+    results.insert(results.begin(), "case");
+  else
+    results.emplace_back("status");
+  page.section("Configurations", page::table_of_file("Every configuration that was tried",
+                                                     with_words(page::columns_of(table, results)),
+                                                     "chart.csv", most));
   page.section("Every column",
                page::table_of_file("Settings, errors and costs", table, "chart.csv", most),
                page::Page::Shown::folded);
@@ -139,7 +153,8 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
                page::making({.command = "palpate chart " + family.name + ".toml",
                              .note = "Costs are times of the machine that measured them: only "
                                      "the errors repeat."},
-                            {}, folder));
+                            {}, folder),
+               page::Page::Shown::folded);
   page::write(std::move(page), folder);
 }
 

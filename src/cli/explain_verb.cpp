@@ -313,9 +313,9 @@ class Explanation {
       const scenario::Resolved::Region& region = regions[i];
       std::string text = "  region " + std::to_string(i + 1) + "     ";
       text.resize(15, ' ');
-      if (const auto* lump = std::get_if<scenario::Lump>(&region.part))
-        text += "a sphere of radius " + quantity_text(lump->radius, unit::mm) + " around " +
-                place_text({lump->centre[0], lump->centre[1], lump->centre[2]});
+      if (const auto* inclusion = std::get_if<scenario::Inclusion>(&region.part))
+        text += "a sphere of radius " + quantity_text(inclusion->radius, unit::mm) + " around " +
+                place_text({inclusion->centre[0], inclusion->centre[1], inclusion->centre[2]});
       else if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
         text += "from " + quantity_text(slab->bottom, unit::mm) + " to " +
                 quantity_text(slab->top, unit::mm) + " in height";
@@ -463,9 +463,11 @@ void draw(const std::string& file, const scene::Scene& scene, const std::string&
   const record::ScenePicture picture = run::picture_of(scene);
   if (file.ends_with(".svg")) return write_atomically(file, report::scene_svg(picture, title));
   page::Page page(title, "scene");
+  const std::size_t end = std::min(text.find("\n\n"), text.size());  // of the sentences
+  page.answer(split(text.substr(0, end), '\n'));
   page.section("Scene", report::scene_view(picture, title));
   page.script(report::scene_script());
-  page.section("What would be computed", page::element("pre", text));
+  page.section("What would be computed", page::element("pre", trimmed(text.substr(end))));
   write_atomically(file, page.html());
 }
 

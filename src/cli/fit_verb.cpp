@@ -76,7 +76,7 @@ record::Table row_table(const std::vector<Row>& rows,
   for (const fit::Estimate& parameter : parameters)
     for (const char* end : {"", "_low", "_high"})
       table.columns.push_back(column_of(parameter, end));
-  for (const char* name : {"r2", "n", "excluded", "effective_n", "law", "remarks"})
+  for (const char* name : {"r2", "n", "excluded", "effective_n", "law", "warnings"})
     table.columns.emplace_back(name);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];

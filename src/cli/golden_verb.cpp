@@ -184,6 +184,7 @@ int add(const Golden& command, const Talk& talk) {
     talk.event("added", {{"scenario", kept.scenario}, {"expected", kept.expected}});
     talk.say(one_line(kept.expected) + ": baseline stored");
   }
+  if (command.subjects.size() == 1) talk.next("golden check", command.subjects.front());
   return exit_good;
 }
 

@@ -10,9 +10,12 @@
 #include <system_error>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "base/child_process.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "page/page.h"
@@ -70,6 +73,20 @@ page::Markup picture(const fs::path& file, const std::string& report, const std:
                               {{"class", page::class_of(file.string())}}));
 }
 
+// ` It took 1.2 s.` from run.json beside a report; nothing where it has no times.
+std::string took(const fs::path& report) {
+  const fs::path file = report.parent_path() / "run.json";
+  if (!fs::exists(file)) return {};
+  const auto json = nlohmann::json::parse(read_text(file.string()), nullptr, false);
+  double seconds = 0.0;
+  if (json.is_object() && json.contains("finished") && json["finished"].is_array())
+    for (const auto& one : json["finished"])
+      if (one.contains("timings_s"))
+        for (const auto& [stage, time] : one["timings_s"].items())
+          if (time.is_number()) seconds += time.get<double>();
+  return seconds >= 0.01 ? " It took " + rounded_text(seconds, 2) + " s." : "";
+}
+
 // Writes index.html of the reports below a folder and returns its path.
 std::string index_of(const fs::path& folder, const std::vector<std::string>& reports,
                      const Talk& talk) {
@@ -85,6 +102,10 @@ std::string index_of(const fs::path& folder, const std::vector<std::string>& rep
       if (shown.empty() || !summary.paper.empty())
         shown += picture((folder / report).parent_path() / name, report, title);
     std::string heading = title.substr(0, title.find(" – palpate"));
+    // `Sweep: `; a run needs no such word.
+    std::string kind =
+        title.substr(std::min(heading.size() + std::string(" – palpate ").size(), title.size()));
+    kind = kind.empty() || kind == "run" ? "" : capitalized(kind) + ": ";
     if (!headings.insert(heading).second) heading += ", " + report;
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
       const std::string cell = "\"verdict\">" + std::string(page::verdicts[i]) + "<";
@@ -100,9 +121,11 @@ std::string index_of(const fs::path& folder, const std::vector<std::string>& rep
                             page::element("p", page::link(link_of(report), "All of this result")),
                         {{"class", "whole"}}));
     else
-      items +=
-          page::element("section", shown + page::element("h3", page::link(link_of(report), title)) +
-                                       page::element("p", summary.answer));
+      items += page::element("section",
+                             shown + page::element("h3", page::link(link_of(report), heading)) +
+                                 page::element("p", kind + summary.answer +
+                                                        (summary.answer.ends_with('.') ? "" : ".") +
+                                                        took(folder / report)));
   }
   if (const std::size_t all = verdicts[0] + verdicts[1] + verdicts[2]; all > 0)
     page.headline(std::to_string(verdicts[0]) + " of " + std::to_string(all),

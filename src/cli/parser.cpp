@@ -44,7 +44,7 @@ constexpr std::array<Listed, 18> listed{
      {"compare", agreement, "palpate compare out/press other/press"},
      {"golden", agreement, "palpate golden check"},
      {"data", measured, "palpate data measured.txt --x-unit um"},
-     {"fit", measured, "palpate fit measured.csv --model hertz --radius \"11 mm\""},
+     {"fit", measured, "palpate fit measured.csv --model hertz --radius \"11 mm\" --poisson 0.45"},
      {"identify", measured,
       "palpate identify measured.csv press.toml --unknown \"tissue.young_modulus=1..500 kPa\""},
      {"device", measured, "palpate device probe mark10:/dev/ttyUSB0"},
@@ -56,6 +56,29 @@ constexpr std::array<Listed, 18> listed{
      {"manual", installers, "palpate manual keys --man"},
      {"schema", installers, "palpate schema > palpate.schema.json"},
      {"completion", installers, "palpate completion bash"}}};
+
+// Of the verbs within verbs.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> inner_examples{
+    {{"sweep plan", "press.toml"},
+     {"sweep run", "out/press_sweep --jobs 4"},
+     {"sweep status", "out/press_sweep"},
+     {"sweep retry", "out/press_sweep"},
+     {"sweep merge", "out/press_sweep"},
+     {"sweep parts", "out/press_sweep --of 8 | parallel"},
+     {"sweep slurm", "out/press_sweep --chunk 20 --time 01:00:00"},
+     {"golden add", "press.toml"},
+     {"golden check", "scenarios --junit golden.xml"},
+     {"golden list", "scenarios"},
+     {"device probe", "mark10:/dev/ttyUSB0"},
+     {"device monitor", "mark10:/dev/ttyUSB0 --seconds 5"},
+     {"device stop", "mark10:/dev/ttyUSB0"}}};
+
+void add_inner_examples(CLI::App& verb) {
+  for (CLI::App* inner : verb.get_subcommands([](const CLI::App*) { return true; }))
+    for (const auto& [words, rest] : inner_examples)
+      if (words == verb.get_name() + " " + inner->get_name())
+        inner->footer("Example: palpate " + std::string(words) + " " + std::string(rest));
+}
 
 const Listed& listing(std::string_view verb) {
   return *std::find_if(listed.begin(), listed.end(),
@@ -110,6 +133,7 @@ struct Parser {
       add_options(verb, command);
       verb.group(std::string(listing(command.word.word).group));
       verb.footer("Example: " + std::string(listing(command.word.word).example));
+      add_inner_examples(verb);
     });
   }
 

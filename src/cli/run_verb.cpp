@@ -1,6 +1,7 @@
 // `palpate run`: runs scenarios one after the other, and the cases of each in parallel.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -48,7 +49,22 @@ struct Prepared {
   int workers = 1;
   std::vector<scene::Scene> scenes;
   std::unique_ptr<report::ResultFolder> folder;
+  double seconds = 0.0;  // that the scenes took
 };
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// `It took 4.6 s: model and mesh 1.2 s, steps 3 s, figures and files 0.4 s.`
+std::string time_sentence(double scenes, double steps, double files) {
+  const auto text = [](double seconds) {
+    return seconds < 60.0 ? rounded_text(seconds, 2) + " s" : duration_text(seconds);
+  };
+  return "It took " + text(scenes + steps + files) + ": model and mesh " + text(scenes) +
+         ", steps " + text(steps) + ", figures and files " + text(files) + ".";
+}
 
 Prepared prepare(const scenario::Family& family, const Run& command, const Talk& talk) {
   for (const Problem& note : family.notes) talk.say("note: " + note.text());
@@ -59,7 +75,9 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
   prepared.folder = std::make_unique<report::ResultFolder>(
       command.out, family, command.force ? Replace::any : Replace::incomplete,
       report::origin_of(family));
+  const Clock::time_point start = Clock::now();
   prepared.scenes = run::build_all(family, prepared.workers);
+  prepared.seconds = since(start);
   return prepared;
 }
 
@@ -114,7 +132,9 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
     ++done;
     talk.event("case", details_of(family.name, record));
   };
+  const Clock::time_point start = Clock::now();
   const std::vector<record::CaseRecord> records = run::run_all(scenes, prepared.workers, finished);
+  const double steps = since(start);
   ticker.reset();
   if (StopScope::stopped() && records.empty()) return {};
 
@@ -131,8 +151,11 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   for (std::vector<fit::NamedFit>& one : fits_of)
     fits.insert(fits.end(), std::make_move_iterator(one.begin()),
                 std::make_move_iterator(one.end()));
+  const Clock::time_point filing = Clock::now();
   ran.missing = warn_all(folder.finish(records, fits, {arguments.given, started}), talk);
+  const double files = since(filing);
   for (const std::string& line : report::answer_lines(records)) talk.say(line);
+  talk.say(time_sentence(prepared.seconds, steps, files));
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))
     talk.say("The page to look at is " + page + ".");
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +

@@ -49,9 +49,22 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return near ? "; did you mean `" + dashes + *near + "`?" : "; known: " + joined(known, ", ");
 }
 
+// The verbs with this option, as `palpate identify`.
+std::vector<std::string> owners(const CLI::App& app, const std::string& name,
+                                const std::string& command = "palpate") {
+  std::vector<std::string> found;
+  for (const std::string& word : verb_names(app)) {
+    const CLI::App& verb = *app.get_subcommand(word);
+    const std::string whole = command + " " + word;
+    if (verb.get_option_no_throw(name) != nullptr) found.push_back("`" + whole + "`");
+    for (std::string& inner : owners(verb, name, whole)) found.push_back(std::move(inner));
+  }
+  return found;
+}
+
 // `after` are the words behind it.
-std::string unknown_option(const CLI::App& verb, const std::string& name, const Options& known,
-                           std::span<const std::string> after) {
+std::string unknown_option(const CLI::App& app, const CLI::App& verb, const std::string& name,
+                           const Options& known, std::span<const std::string> after) {
   std::vector<std::string> inners = verb_names(verb);
   std::stable_partition(inners.begin(), inners.end(), [&](const std::string& inner) {
     return std::find(after.begin(), after.end(), inner) != after.end();
@@ -60,6 +73,12 @@ std::string unknown_option(const CLI::App& verb, const std::string& name, const 
     if (verb.get_subcommand(inner)->get_option_no_throw(name) != nullptr)
       return "option `" + name + "` stands before its verb; write it as `palpate " + inner +
              " ... " + name + "`";
+  std::string command = verb.get_name();
+  for (const CLI::App* outer = verb.get_parent(); outer != nullptr; outer = outer->get_parent())
+    command = (outer == &app ? "palpate" : outer->get_name()) + " " + command;
+  if (const std::vector<std::string> others = owners(app, name); !others.empty())
+    return "`" + command + "` has no option `" + name + "`, which belongs to " +
+           joined(others, ", ") + "; `" + command + " --help` lists its own";
   return "unknown option `" + name + "`" + did_you_mean(name, long_names(known));
 }
 
@@ -120,7 +139,7 @@ std::optional<std::string> wrong_word(const CLI::App& app,
       // The next word is the value of the option, even if it begins with `-`.
       if (option->get_items_expected_min() > 0 && name == word) ++i;
     } else if (is_long) {
-      return unknown_option(*verb, name, options, std::span(arguments).subspan(i));
+      return unknown_option(app, *verb, name, options, std::span(arguments).subspan(i));
     } else if (!word.starts_with("-") && !verb_names(*verb).empty()) {
       const std::vector<std::string> names = verb_names(*verb);
       if (std::find(names.begin(), names.end(), word) == names.end())

@@ -217,7 +217,15 @@ std::string worst_text(const WorstRow& worst) {
   std::string text = "row " + std::to_string(worst.row) + ": ";
   if (!worst.case_name.empty()) text += "case `" + one_line(worst.case_name) + "`, ";
   if (!worst.x_name.empty()) text += one_line(worst.x_name) + " " + cell_text(worst.x) + ", ";
-  text += "got " + cell_text(worst.got) + ", want " + cell_text(worst.want);
+  // Digits that show the difference to three of its own; the JSON has all of them.
+  int digits = 17;
+  if (std::isfinite(worst.relative) && worst.relative > 0.0)
+    digits = std::clamp(3 - static_cast<int>(std::floor(std::log10(worst.relative))), 4, 17);
+  const auto shown = [&](const Cell& cell) {
+    const auto* number = std::get_if<double>(&cell);
+    return number != nullptr && digits < 17 ? rounded_text(*number, digits) : cell_text(cell);
+  };
+  text += "got " + shown(worst.got) + ", want " + shown(worst.want);
   if (std::isfinite(worst.relative))
     text += ", relative difference " + rounded_text(worst.relative, 3);
   const bool numbers =

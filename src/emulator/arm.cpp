@@ -218,7 +218,7 @@ Answer Arm::answer(const std::string& text) {
   last_message_ = now_;
   command(request);
   log_row("in", text);
-  if (!request.warning.empty()) log_row("remark", request.warning);
+  if (!request.warning.empty()) log_row("warning", request.warning);
   if (settings_.clock == Clock::lockstep) go_to(now_ + settings_.period, none_counted);
   Answer answer;
   Outgoing first = reply(request);

@@ -21,10 +21,11 @@ double distance_to(const Surface& surface, const Vec3& point) {
   return std::sqrt(BoxTree(surface).nearest(point).distance_squared);
 }
 
-std::string named(const Lump& lump) {
-  std::string text = "the inclusion of radius " + rounded_text(1e3 * lump.radius) + " mm about (";
+std::string named(const Inclusion& inclusion) {
+  std::string text =
+      "the inclusion of radius " + rounded_text(1e3 * inclusion.radius) + " mm about (";
   for (int axis = 0; axis < 3; ++axis)
-    text += (axis ? ", " : "") + rounded_text(1e3 * lump.centre[axis]);
+    text += (axis ? ", " : "") + rounded_text(1e3 * inclusion.centre[axis]);
   return text + ") mm ";
 }
 
@@ -46,16 +47,16 @@ bool encloses(const Surface& surface, const Vec3& point) {
   return half_angles > std::numbers::pi;
 }
 
-void add_lump(Body& body, const Lump& lump, double spacing) {
+void add_inclusion(Body& body, const Inclusion& inclusion, double spacing) {
   const Surface& whole = body.parts.front().surface;
-  double room = distance_to(whole, lump.centre);
-  if (!encloses(whole, lump.centre) || room <= lump.radius)
-    throw MeshError(named(lump) +
+  double room = distance_to(whole, inclusion.centre);
+  if (!encloses(whole, inclusion.centre) || room <= inclusion.radius)
+    throw MeshError(named(inclusion) +
                     "does not lie wholly inside the body; move it inwards or make it smaller");
   for (std::size_t p = 1; p < body.parts.size(); ++p) {
-    const double distance = distance_to(body.parts[p].surface, lump.centre);
-    if (distance <= lump.radius)
-      throw MeshError(named(lump) + "touches the boundary of region " +
+    const double distance = distance_to(body.parts[p].surface, inclusion.centre);
+    if (distance <= inclusion.radius)
+      throw MeshError(named(inclusion) + "touches the boundary of region " +
                       std::to_string(body.parts[p].region) +
                       "; move it away from there or make it smaller");
     room = std::min(room, distance);
@@ -63,18 +64,20 @@ void add_lump(Body& body, const Lump& lump, double spacing) {
   // A polyhedron on the sphere has less volume: its vertices move outwards until it has the ball's.
   // Where they would leave the body, the polyhedron is made finer.
   constexpr double coarsest = 0.55;  // of the radius
-  const double wanted = 4.0 / 3.0 * std::numbers::pi * lump.radius * lump.radius * lump.radius;
-  double edge = std::min(spacing, coarsest * lump.radius);
+  const double wanted =
+      4.0 / 3.0 * std::numbers::pi * inclusion.radius * inclusion.radius * inclusion.radius;
+  double edge = std::min(spacing, coarsest * inclusion.radius);
   Surface ball;
   double wider = 0.0;
-  for (int tries = 0; tries < 3 && (wider == 0.0 || wider * lump.radius >= room); ++tries) {
-    ball = ellipsoid_surface(lump.centre, Vec3::Constant(2.0 * lump.radius), edge);
+  for (int tries = 0; tries < 3 && (wider == 0.0 || wider * inclusion.radius >= room); ++tries) {
+    ball = ellipsoid_surface(inclusion.centre, Vec3::Constant(2.0 * inclusion.radius), edge);
     wider = std::cbrt(wanted / enclosed(ball).volume);
     edge *= 0.5;
   }
-  wider = std::min(wider, std::sqrt(room / lump.radius));
-  for (Vec3& vertex : ball.vertices) vertex = lump.centre + wider * (vertex - lump.centre);
-  body.parts.push_back({std::move(ball), lump.region});
+  wider = std::min(wider, std::sqrt(room / inclusion.radius));
+  for (Vec3& vertex : ball.vertices)
+    vertex = inclusion.centre + wider * (vertex - inclusion.centre);
+  body.parts.push_back({std::move(ball), inclusion.region});
 }
 
 Surface facets(const Body& body) {

@@ -21,7 +21,7 @@ struct Body {
 };
 
 // A spherical inclusion.
-struct Lump {
+struct Inclusion {
   Vec3 centre = Vec3::Zero();  // m
   double radius = 0.0;         // m
   int region = 0;
@@ -31,7 +31,7 @@ struct Lump {
 // 0.55 of its radius, and encloses the sphere's volume. Nested inclusions are added from the
 // outside inwards. Throws MeshError if the inclusion is not wholly inside the body, or touches the
 // surface of another part.
-void add_lump(Body& body, const Lump& lump, double spacing);
+void add_inclusion(Body& body, const Inclusion& inclusion, double spacing);
 
 // All triangles of the body's surfaces, shared ones only once: the input for TetGen.
 [[nodiscard]] Surface facets(const Body& body);

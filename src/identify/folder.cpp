@@ -73,9 +73,10 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
                    "identified.csv", most) +
                    page::table_of_file("Correlation of the estimates", correlation_table(found),
                                        "correlation.csv", most));
+  constexpr auto folded = page::Page::Shown::folded;
   page.section("Every column",
                page::table_of_file("Estimates and both intervals", table, "identified.csv", most),
-               page::Page::Shown::folded);
+               folded);
   std::vector<std::string> notes = found.notes;
   notes.insert(notes.end(), found.warnings.begin(), found.warnings.end());
   page.section("Notes", page::paragraphs(notes));
@@ -85,12 +86,13 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
     asked += page::folded("The scenario as written", pairs[k].family->inputs.front().content) +
              page::folded("The scenario with the estimates, " + name, read_text(folder.file(name)));
   }
-  page.section("Scenario", asked);
+  page.section("Scenario", asked, folded);
   page.section("How it was made",
                page::making({.command = "palpate run scenario" + suffix_of(found, 0) + ".toml",
                              .note = "The command repeats the fitted curve. `palpate identify` "
                                      "with the files below repeats the fit."},
-                            inputs, folder));
+                            inputs, folder),
+               folded);
   page::write(std::move(page), folder);
 }
 

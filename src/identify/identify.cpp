@@ -78,15 +78,14 @@ class Search {
   }
 
   Identification all() {
-    const std::size_t steps = unknowns_.size() + 2;
-    set_doing({"search of the best fit", 0, steps});
+    begin("search of the best fit", 0);
     make_problem();
     refuse_what_changes_nothing();
     find_best();
     judge();
     if (options_.profiles) {
       profiles();
-      set_doing({"starts of the contact", steps - 1, steps});
+      begin("starts of the contact", unknowns_.size() + 1);
       sensitivity();
       widen_by_start();
     }
@@ -95,6 +94,25 @@ class Search {
   }
 
  private:
+  // One of the parts of the work for the line of progress: the search, an interval of each unknown,
+  // and the starts of the contact.
+  void begin(const std::string& name, std::size_t part) {
+    doing_ = name;
+    part_ = part;
+    tried_ = 0;
+    tell();
+  }
+
+  // How many curves a part takes is not known; half of it is said to be done after as many as the
+  // intervals of a smooth curve take.
+  void tell() const {
+    constexpr std::size_t percent = 100;
+    const std::size_t usual = 10 * (unknowns_.size() + 1);
+    const std::size_t within = percent * tried_ / (tried_ + usual);
+    set_doing({doing_ + (tried_ == 0 ? "" : ", " + std::to_string(tried_) + " curves"),
+               (percent * part_ + within) / (unknowns_.size() + 2), percent});
+  }
+
   void add(const Pair& pair) {
     Part& part = parts_.emplace_back();
     part.family = pair.family;
@@ -154,6 +172,8 @@ class Search {
       for (const std::string& text : part.found.notes) note(part, text);
     problem_.unknowns = unknowns_.size();
     problem_.curve = [this](std::span<const double> u, std::span<double> values) {
+      ++tried_;
+      tell();
       return std::all_of(parts_.begin(), parts_.end(), [&](Part& part) {
         return !StopScope::stopped() &&
                part.values(u, values.subspan(part.from, part.to - part.from));
@@ -438,7 +458,7 @@ class Search {
     const std::size_t n = unknowns_.size();
     for (std::size_t i = 0; i < n; ++i) {
       Identified& one = found_.unknowns[i];
-      set_doing({"interval of " + one.unknown.name(), i + 1, n + 2});
+      begin("interval of " + one.unknown.name(), i + 1);
       // The standard deviation of independent residuals that would give this unknown its error.
       const double sigma =
           one.inseparable || one.at_bound
@@ -704,6 +724,9 @@ class Search {
   bool systematic_ = false;        // the residuals are correlated by both tests
   double t_ = 0.0;
   Identification found_;
+  std::string doing_;      // for the line of progress: the part of the work,
+  std::size_t part_ = 0;   // its number,
+  std::size_t tried_ = 0;  // and the curves that it took so far
 };
 
 }  // namespace

@@ -43,6 +43,12 @@ double largest_residual(const Identification& found) {
   return words_of(found.kind).y.from_si(most);
 }
 
+// Whether the values are positive but for some noise, which needs no tick below zero.
+bool noise_about_zero(const Identification& found) {
+  const auto [low, high] = std::minmax_element(found.measured.begin(), found.measured.end());
+  return low != found.measured.end() && *low < 0.0 && -*low < *high / 20.0;
+}
+
 }  // namespace
 
 plot::Sheet identified_sheet(const std::string& title, const identify::Identification& found,
@@ -58,14 +64,16 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
           "\nset tmargin at screen 0.91\nset bmargin at screen 0.42\n"
           "set format x ''\nset ylabel " +
           plot::gnuplot_quoted(label(y, words.y)) +
-          "\nset key top left Left reverse samplen 2 spacing 1.2\nplot \\\n  " + file +
+          "\nset key top left Left reverse samplen 2 spacing 1.2\n" +
+          (noise_about_zero(found) ? "set autoscale yfixmin\n" : "") + "plot \\\n  " + file +
           ":2 with points pointtype 7 pointsize 0.4 linecolor rgb '#0072B2' title 'measured', \\\n"
           "  " +
           file +
           ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
   const double scale = power_of_thousand(largest_residual(found));
   text +=
-      "unset title\nunset key\nset tmargin at screen 0.38\nset bmargin at screen 0.13\n"
+      "unset title\nunset key\nset autoscale y\nset tmargin at screen 0.38\nset bmargin at screen "
+      "0.13\n"
       "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
       plot::gnuplot_quoted(label("Measured - model", words.y) + power_text(scale)) +

@@ -126,17 +126,17 @@ void EquivalentLoad::set_step(double time_step) {
 
 void EquivalentLoad::pass(const Vector& load) {
   if (steps_.empty()) {
-    crept_ = load;
+    load_ = load;
     return;
   }
-  if (crept_.size() == 0) {
-    crept_ = Vector::Zero(load.size());
-    memory_.assign(steps_.size(), crept_);
+  if (load_.size() == 0) {
+    load_ = Vector::Zero(load.size());
+    memory_.assign(steps_.size(), load_);
   }
   if (law_.branches.empty()) {
     // tau J' + J = L; the memory is the load before.                   docs/theory.md [memory]
     const tissue::MemoryStep& step = steps_.front();
-    crept_ = step.keep * crept_ + step.begin * memory_.front() + step.end * load;
+    load_ = step.keep * load_ + step.begin * memory_.front() + step.end * load;
     memory_.front() = load;
     return;
   }
@@ -146,11 +146,11 @@ void EquivalentLoad::pass(const Vector& load) {
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const double ratio = law_.branches[k].ratio;
     stiffness += ratio * (1.0 - steps_[k].end);
-    memory_[k] = steps_[k].keep * memory_[k] + steps_[k].begin * crept_;
+    memory_[k] = steps_[k].keep * memory_[k] + steps_[k].begin * load_;
     right_ += ratio * memory_[k];
   }
-  crept_ = right_ / stiffness;
-  for (std::size_t k = 0; k < steps_.size(); ++k) memory_[k] += steps_[k].end * crept_;
+  load_ = right_ / stiffness;
+  for (std::size_t k = 0; k < steps_.size(); ++k) memory_[k] += steps_[k].end * load_;
 }
 
 void EquivalentLoad::renumber(const std::vector<Eigen::Index>& from) {
@@ -161,7 +161,7 @@ void EquivalentLoad::renumber(const std::vector<Eigen::Index>& from) {
     for (std::size_t d = 0; d < from.size(); ++d)
       vector[static_cast<Eigen::Index>(d)] = from[d] < 0 ? 0.0 : old[from[d]];
   };
-  turn(crept_);
+  turn(load_);
   for (Vector& one : memory_) turn(one);
 }
 

@@ -113,7 +113,7 @@ class EquivalentLoad {
   void pass(const Vector& load);
 
   // J[L] at the end of the last step, N; empty before the first one.
-  [[nodiscard]] const Vector& load() const { return crept_; }
+  [[nodiscard]] const Vector& load() const { return load_; }
 
   // Renumbers: entry d of the new vectors is entry from[d] of the old ones, or 0 where that is -1.
   void renumber(const std::vector<Eigen::Index>& from);
@@ -122,7 +122,7 @@ class EquivalentLoad {
   tissue::ViscousLaw law_;
   MemoryRule rule_;
   std::vector<tissue::MemoryStep> steps_;
-  Vector crept_;                // J[L]
+  Vector load_;                 // J[L]
   std::vector<Vector> memory_;  // N, one per branch; of Kelvin-Voigt the load
   Vector right_;                // N
 };

@@ -488,13 +488,13 @@ ConsistentWithInertia::ConsistentWithInertia(SurfaceContacts& contacts, MovingPa
     : OnMesh(contacts, moving),
       statics(contacts, moving),
       inertia_(moving),
-      crept_(moving.scene->specimen->law, memory_rule(*moving.scene)) {}
+      equivalent_(moving.scene->specimen->law, memory_rule(*moving.scene)) {}
 
 void ConsistentWithInertia::begin_part(const std::vector<Eigen::Index>& from) {
   statics.begin_part(from);
   inertia_.statics.forget();
   inertia_.response.forget();
-  crept_.renumber(from);
+  equivalent_.renumber(from);
 }
 
 void ConsistentWithInertia::make_ready() {
@@ -509,7 +509,7 @@ void ConsistentWithInertia::make_ready() {
 void ConsistentWithInertia::set_stage(double duration) {
   if (duration == stage_) return;
   stage_ = duration;
-  crept_.set_step(duration);
+  equivalent_.set_step(duration);
   slope_ = 1.0;
   for (const contact::Branch& branch : part->scene->relaxation.branches)
     slope_ += branch.ratio * (1.0 - tissue::MemoryStep::exact(duration, branch.time).end);
@@ -551,7 +551,7 @@ std::optional<std::string> ConsistentWithInertia::meet(const Vector& displacemen
   // Friction acts as in the previous step; its static displacement does not count as motion.
   if (!viscous) drag_load(to.touch, *part, drag_);
   const Motion motion{.displacement = displacement,
-                      .still = viscous ? crept_.load() : drag_,
+                      .still = viscous ? equivalent_.load() : drag_,
                       .still_has_past = viscous,
                       .share = share,
                       .slope = slope_,
@@ -566,7 +566,7 @@ std::optional<std::string> ConsistentWithInertia::meet(const Vector& displacemen
     inertia_.keep_forces(to.touch);
   }
   contact_load(to.touch, *part, part->load);
-  if (viscous) crept_.pass(part->load);
+  if (viscous) equivalent_.pass(part->load);
   statics.load_finely(to.touch);
   return std::nullopt;
 }

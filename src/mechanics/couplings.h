@@ -171,7 +171,7 @@ class ConsistentWithInertia : public OnMesh {
 
   // The load whose static displacement a mesh without inertia would have now, N.
   [[nodiscard]] const integrate::Vector& equivalent_load() const {
-    return crept_.load().size() > 0 ? crept_.load() : part->load;
+    return equivalent_.load().size() > 0 ? equivalent_.load() : part->load;
   }
 
   Consistent statics;
@@ -185,7 +185,7 @@ class ConsistentWithInertia : public OnMesh {
   void set_stage(double duration);
 
   ContactInertia inertia_;
-  integrate::EquivalentLoad crept_;
+  integrate::EquivalentLoad equivalent_;
   double stage_ = 0.0;                 // s, from one solution of the contacts to the next
   double slope_ = 1.0;                 // Motion::slope
   integrate::Vector drag_, acting_;    // N, of friction; during the step

@@ -115,7 +115,7 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
 void MovingPart::set_step(double size) {
   time_step = size;
   stepper->set_step(size);
-  if (crept) crept->set_step(size);
+  if (equivalent) equivalent->set_step(size);
 }
 
 std::optional<std::string> MovingPart::move(const Touch& touch) {
@@ -126,9 +126,9 @@ std::optional<std::string> MovingPart::move(const Touch& touch) {
     });
     modal.pass(state, time_step);
   }
-  if (crept) {
+  if (equivalent) {
     contact_load(touch, *this, load);
-    crept->pass(load);
+    equivalent->pass(load);
   }
   if (in_modes || still) {
     shown = false;
@@ -143,11 +143,11 @@ std::optional<std::string> MovingPart::move(const Touch& touch) {
 void MovingPart::show() {
   if (shown) return;
   shown = true;
-  if (still) return respond(Response::statics, crept->load(), state.displacement);
+  if (still) return respond(Response::statics, equivalent->load(), state.displacement);
   const auto& modal = std::get<integrate::Modal>(stepper->method());
   modal.show(state);
-  if (crept) {
-    add_dropped(crept->load(), state.displacement);
+  if (equivalent) {
+    add_dropped(equivalent->load(), state.displacement);
     body->memory_at(state.displacement, state.memory);
   }
   const auto energies = modal.energies();

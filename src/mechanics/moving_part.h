@@ -73,7 +73,7 @@ struct MovingPart {
   bool in_modes = false;
   bool still = false;
   // This load, if `still`, or if modal steps drop modes that follow it without inertia.
-  std::optional<integrate::EquivalentLoad> crept;
+  std::optional<integrate::EquivalentLoad> equivalent;
   bool shown = true;  // whether `state` is up to date
 };
 

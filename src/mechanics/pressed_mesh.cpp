@@ -41,9 +41,9 @@ void PressedMesh::set_step(double time_step) {
   part_.in_modes = alone && modal != nullptr && modal->passes_alone();
   part_.still = alone && part_.body->linear() &&
                 scenario.solver.integrator == scenario::Solver::Integrator::quasi_static;
-  if (!part_.crept && (part_.still || (part_.in_modes && !modal->keeps_all()))) {
-    part_.crept.emplace(part_.body->law(), integrate::MemoryRule::exact);
-    part_.crept->set_step(time_step);
+  if (!part_.equivalent && (part_.still || (part_.in_modes && !modal->keeps_all()))) {
+    part_.equivalent.emplace(part_.body->law(), integrate::MemoryRule::exact);
+    part_.equivalent->set_step(time_step);
   }
 }
 
@@ -190,7 +190,7 @@ std::optional<double> PressedMesh::imbalance() {
 }
 
 bool PressedMesh::shows_slowly() const {
-  return part_.crept && part_.freedoms() >= SymmetricSolver::large;
+  return part_.equivalent && part_.freedoms() >= SymmetricSolver::large;
 }
 
 std::optional<PressedMesh::KeptModes> PressedMesh::kept_modes(const Touch& touch) {

@@ -173,14 +173,15 @@ namespace {
 
 // A node is on an inclusion if its distance from the centre differs from the radius by less than
 // this.
-constexpr double near_lump = 0.15;
+constexpr double near_inclusion = 0.15;
 
 }  // namespace
 
 TrueBoundary::TrueBoundary(const geometry::TetMesh& start, std::optional<geometry::Shape> shape,
-                           std::span<const geometry::Lump> lumps, std::span<const double> levels)
+                           std::span<const geometry::Inclusion> inclusions,
+                           std::span<const double> levels)
     : shape_(std::move(shape)),
-      lumps_(lumps.begin(), lumps.end()),
+      inclusions_(inclusions.begin(), inclusions.end()),
       levels_(levels.begin(), levels.end()),
       nodes_(start.nodes),
       outer_surface_(geometry::outer_surface(start).surface),
@@ -224,12 +225,13 @@ Vec3 TrueBoundary::place(const Bisection::Middle& edge) {
 Vec3 TrueBoundary::smooth_place(const Bisection::Middle& edge, const OnSurface& here) const {
   const bool outer = !edge.outer.empty();
   if (edge.inner && !outer)
-    for (const geometry::Lump& lump : lumps_) {
-      const double first = (nodes_[as_index(edge.a)] - lump.centre).norm();
-      const double second = (nodes_[as_index(edge.b)] - lump.centre).norm();
-      if (std::max(std::abs(first - lump.radius), std::abs(second - lump.radius)) <
-          near_lump * lump.radius)
-        return lump.centre + 0.5 * (first + second) * (edge.between - lump.centre).normalized();
+    for (const geometry::Inclusion& inclusion : inclusions_) {
+      const double first = (nodes_[as_index(edge.a)] - inclusion.centre).norm();
+      const double second = (nodes_[as_index(edge.b)] - inclusion.centre).norm();
+      if (std::max(std::abs(first - inclusion.radius), std::abs(second - inclusion.radius)) <
+          near_inclusion * inclusion.radius)
+        return inclusion.centre +
+               0.5 * (first + second) * (edge.between - inclusion.centre).normalized();
     }
   if (shape_ && (edge.inner || (outer && !on_end(edge))))
     return geometry::onto(*shape_, edge.between);
@@ -289,20 +291,21 @@ std::optional<Vec3> TrueBoundary::position(const OnSurface& at) const {
   return flat + (creased ? sum : Vec3(sum / sides));
 }
 
-void TrueBoundary::restore_lumps(geometry::TetMesh& mesh) {
-  for (const geometry::Lump& lump : lumps_) {
+void TrueBoundary::restore_inclusions(geometry::TetMesh& mesh) {
+  for (const geometry::Inclusion& inclusion : inclusions_) {
     std::vector<char> sides(mesh.nodes.size(), 0);
     const auto volume = [&] {
       double sum = 0.0;
       for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-        if (mesh.region(static_cast<int>(t)) == lump.region)
+        if (mesh.region(static_cast<int>(t)) == inclusion.region)
           sum += geometry::signed_volume(mesh, static_cast<int>(t));
       return sum;
     };
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
       for (const int node : mesh.tetrahedra[t])
-        sides[as_index(node)] |= mesh.region(static_cast<int>(t)) == lump.region ? 1 : 2;
-    const double wanted = 4.0 / 3.0 * std::numbers::pi * lump.radius * lump.radius * lump.radius;
+        sides[as_index(node)] |= mesh.region(static_cast<int>(t)) == inclusion.region ? 1 : 2;
+    const double wanted =
+        4.0 / 3.0 * std::numbers::pi * inclusion.radius * inclusion.radius * inclusion.radius;
     // All nodes of the inclusion move, so that nothing inside turns inside out; around it the move
     // is taken back in part where something would.
     const double wider = std::cbrt(wanted / volume());
@@ -310,7 +313,8 @@ void TrueBoundary::restore_lumps(geometry::TetMesh& mesh) {
     for (const double share : {1.0, 0.5, 0.25, 0.0}) {
       const double scale = 1.0 + share * (wider - 1.0);
       for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-        if ((sides[n] & 1) != 0) mesh.nodes[n] = lump.centre + scale * (before[n] - lump.centre);
+        if ((sides[n] & 1) != 0)
+          mesh.nodes[n] = inclusion.centre + scale * (before[n] - inclusion.centre);
       bool good = true;
       for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
         const int tetrahedron = static_cast<int>(t);

@@ -76,15 +76,15 @@ class TrueBoundary {
   // (geometry/smooth_surface.h), and boundaries between regions other than inclusions stay as they
   // are. Nodes on edges at one of the heights `levels` (m) stay at that height.
   TrueBoundary(const geometry::TetMesh& start, std::optional<geometry::Shape> shape,
-               std::span<const geometry::Lump> lumps, std::span<const double> levels);
+               std::span<const geometry::Inclusion> inclusions, std::span<const double> levels);
 
   // The place (m) of the node on an edge: Bisection::Place. Every mesh is refined from the one
   // before, so that this sees all nodes in their order.
   [[nodiscard]] Vec3 place(const Bisection::Middle& edge);
 
   // Gives every inclusion its volume again, by moving its nodes along its radii; the regions'
-  // numbers are those of `lumps`.
-  void restore_lumps(geometry::TetMesh& mesh);
+  // numbers are those of `inclusions`.
+  void restore_inclusions(geometry::TetMesh& mesh);
 
  private:
   // A node's position on the smooth surface: corners of one of its triangles with their weights.
@@ -98,7 +98,7 @@ class TrueBoundary {
   [[nodiscard]] bool on_end(const Bisection::Middle& edge) const;
 
   std::optional<geometry::Shape> shape_;
-  std::vector<geometry::Lump> lumps_;
+  std::vector<geometry::Inclusion> inclusions_;
   std::vector<double> levels_;
   std::vector<Vec3> nodes_;  // m, as far as they are known here
   geometry::SmoothSurface outer_surface_;

@@ -316,11 +316,12 @@ class Search {
 // A shape with inclusions, sampled at different spacings.
 struct Sampling {
   const geometry::Shape& shape;
-  std::span<const geometry::Lump> lumps;
+  std::span<const geometry::Inclusion> inclusions;
 
   [[nodiscard]] geometry::Body body(double spacing, double inner) const {
     geometry::Body body = geometry::sampled(shape, {spacing, inner * spacing});
-    for (const geometry::Lump& lump : lumps) geometry::add_lump(body, lump, spacing);
+    for (const geometry::Inclusion& inclusion : inclusions)
+      geometry::add_inclusion(body, inclusion, spacing);
     return body;
   }
 };
@@ -371,9 +372,10 @@ geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target, 
   return search.taken();
 }
 
-geometry::TetMesh tetgen_shape(const geometry::Shape& shape, std::span<const geometry::Lump> lumps,
+geometry::TetMesh tetgen_shape(const geometry::Shape& shape,
+                               std::span<const geometry::Inclusion> inclusions,
                                const Target& target, double time_limit) {
-  const Sampling sampling{shape, lumps};
+  const Sampling sampling{shape, inclusions};
   Search search(target, time_limit);
   if (target.nodes == 0) {
     const geometry::Body body = sampling.body(target.edge_length, 1.0);
@@ -424,17 +426,18 @@ std::string told(const geometry::Surface& before, std::size_t needles, const Rem
          " mm apart";
 }
 
-geometry::Body body_of(geometry::Surface surface, std::span<const geometry::Lump> lumps) {
+geometry::Body body_of(geometry::Surface surface, std::span<const geometry::Inclusion> inclusions) {
   const double spacing = spacing_of(surface);
   geometry::Body body;
   body.parts.push_back({std::move(surface), 0});
-  for (const geometry::Lump& lump : lumps) geometry::add_lump(body, lump, spacing);
+  for (const geometry::Inclusion& inclusion : inclusions)
+    geometry::add_inclusion(body, inclusion, spacing);
   return body;
 }
 
 }  // namespace
 
-FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> lumps,
+FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclusion> inclusions,
                      const Target& target, double time_limit) {
   FileMesh made;
   const std::size_t needles = count_needles(surface);
@@ -447,7 +450,7 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> 
     return true;
   };
   const auto meshed = [&](const Target& wanted) {
-    return tetgen_body(body_of(surface, lumps), wanted, time_limit);
+    return tetgen_body(body_of(surface, inclusions), wanted, time_limit);
   };
   std::exception_ptr failure;
   const auto attempt = [&] {

@@ -37,7 +37,7 @@ struct TooFewNodes : MeshError {
 // so that the counts are within 3 % for most targets. Fewer tetrahedra with the same number of
 // nodes mean a finer surface and a coarser interior.
 [[nodiscard]] geometry::TetMesh tetgen_shape(const geometry::Shape& shape,
-                                             std::span<const geometry::Lump> lumps,
+                                             std::span<const geometry::Inclusion> inclusions,
                                              const Target& target, double time_limit);
 
 struct FileMesh {
@@ -49,8 +49,9 @@ struct FileMesh {
 // surface with as many vertices as nodes are asked for, or with edges below half of those asked
 // for, is coarsened first, and one with needles is remeshed: see surface_remeshing.h. If there is
 // still no mesh near the number of nodes, the mesh has the spacing of the surface. `time_limit` (s)
-// is that of TetGen for each attempt. Throws MeshError as tetgen_body() and add_lump() do.
-[[nodiscard]] FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Lump> lumps,
+// is that of TetGen for each attempt. Throws MeshError as tetgen_body() and add_inclusion() do.
+[[nodiscard]] FileMesh tetgen_file(geometry::Surface surface,
+                                   std::span<const geometry::Inclusion> inclusions,
                                    const Target& target, double time_limit);
 
 }  // namespace palpate::meshing

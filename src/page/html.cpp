@@ -94,12 +94,25 @@ Markup cell(const record::Cell& value, bool heading, const std::string& column) 
   return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word, attributes);
 }
 
+// Whether a column has a number and no word, so that its head stands to the right as well.
+bool stands_right(const record::Table& content, std::size_t column) {
+  bool number = false;
+  for (const auto& row : content.rows) {
+    if (std::holds_alternative<std::string>(row[column])) return false;
+    number = number || std::holds_alternative<double>(row[column]);
+  }
+  return number;
+}
+
 }  // namespace
 
 Markup table(const std::string& caption, const record::Table& content) {
   Markup head;
-  for (const std::string& column : content.columns)
-    head += element("th", column, {{"scope", "col"}});
+  for (std::size_t i = 0; i < content.columns.size(); ++i) {
+    Attributes attributes{{"scope", "col"}};
+    if (i > 0 && stands_right(content, i)) attributes.emplace_back("class", "number");
+    head += element("th", content.columns[i], attributes);
+  }
   Markup body;
   for (const auto& row : content.rows) {
     Markup cells;

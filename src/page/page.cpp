@@ -15,7 +15,7 @@ const char* style() {
   return R"css(
 :root { color-scheme: light dark; --back: #ffffff; --ink: #1b1f24; --soft: #57606a;
   --line: #d0d7de; --card: #f6f8fa; --link: #0b5cad; }
-@media (prefers-color-scheme: dark) { :root { --back: #14171a; --ink: #e6e8eb; --soft: #a2abb5;
+@media (prefers-color-scheme: dark) { :root { --back: #171717; --ink: #e6e8eb; --soft: #a2abb5;
   --line: #3a424b; --card: #1e2329; --link: #7cb7ff; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 1rem 1.2rem 3rem; max-width: 62rem; background: var(--back);
@@ -37,7 +37,7 @@ figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
 figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
-  #scene-still text { font-size: 1.25em; } pre { white-space: pre-wrap; } .wide td { overflow-wrap: anywhere; } }
+  #scene-still text { font-size: 1.5em; } .wide td { overflow-wrap: anywhere; } }
 .white { background: #ffffff; border-radius: .4rem; max-width: 44rem; }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
@@ -50,22 +50,25 @@ th, td { border-bottom: 1px solid var(--line); padding: .25rem .8rem .25rem 0; t
   vertical-align: top; } th { font-weight: 600; } .number { text-align: right; }
 .words { min-width: 24rem; }
 code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--card);
-  padding: .8rem; overflow-x: auto; overflow-wrap: normal; } code { background: var(--card); }
+  padding: .8rem; white-space: pre-wrap; } code { background: var(--card); }
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards figure div { max-height: 15rem; overflow: hidden; } .cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
-  .wide tr, .wide th, .wide td { display: block; } .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
+  .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
+  .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
   .wide th, .wide td { border: 0; padding: .1rem 0; text-align: left; } .wide .words { min-width: 0; }
-  td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } }
+  td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } .wide td:empty { display: none; }
+  body { display: flex; flex-direction: column; } main { order: 1; min-width: 0; } nav { order: 2; } footer { order: 3; } }
 footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
-.turn { display: flex; flex-wrap: wrap; gap: 1rem; align-items: center; }
+.turn { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .5rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
-  .wide, pre { overflow: visible; } .wide table { font-size: .78rem; } pre { white-space: pre-wrap; }
-  details:not([open]) { display: none; } }
+  .wide { overflow: visible; } .wide table { font-size: .78rem; } figure svg { max-height: 19cm; }
+  h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { break-before: avoid; }
+  tbody tr:first-child { break-before: avoid; } details:not([open]) { display: none; } }
 )css";
 }
 

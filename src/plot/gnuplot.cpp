@@ -163,6 +163,7 @@ struct Legend {
   std::vector<std::string> labels = {};  // in the order of the series, each once
   std::size_t lines = 0;
   std::size_t rows = 0;  // where several labels stand side by side; 0: one line is enough
+  std::string title = {};
 
   explicit Legend(const Figure& figure) {
     std::size_t longest = 0;
@@ -174,9 +175,9 @@ struct Legend {
       longest = std::max(longest, letters(labels.back()));
     }
     if (labels.size() == 1 && !fits) return;
-    lines = labels.size() + (fits ? 1 : 0) + (figure.legend.empty() ? 0 : 1);
+    lines = labels.size() + (fits ? 1 : 0);
+    title = figure.legend;
     if (fits) longest = std::max(longest, letters(figure.fit_label));
-    longest = std::max(longest, letters(figure.legend));
     constexpr std::size_t short_label = 12;
     if (figure.bar && longest <= short_label) return;
     constexpr std::size_t letters_of_a_row = 64, sample = 8;
@@ -187,7 +188,7 @@ struct Legend {
   [[nodiscard]] int height() const {
     constexpr int plot = 400, line = 20;
     if (lines == 0) return plot;
-    return plot + (rows > 0 ? line * static_cast<int>(rows) : 60);
+    return plot + (rows > 0 ? line * static_cast<int>(rows) : 60) + (title.empty() ? 0 : line);
   }
 };
 
@@ -202,6 +203,9 @@ std::string frame(const Figure& figure, const Legend& legend) {
             " height 1 Left reverse samplen 2.6 spacing 1.25\nset rmargin 3\n";
   else
     text += "set key below horizontal height 1 Left reverse samplen 2.6 spacing 1.25\n";
+  if (!legend.title.empty())  // over the entries, below an empty line
+    text += "set key height 0 title " + gnuplot_quoted(legend.title) + " left\nset xlabel " +
+            gnuplot_quoted(figure.x_label) + ".\"\\n \" offset 0,0.4\n";
   if (figure.from_zero && figure.y_axis == Axis::linear) text += "set yrange [*<0:0<*]\n";
   const auto logarithmic = [&](const std::string& axis, double low, double high) {
     text += "set " + axis + "range [" + rounded_text(low, 6) + ":" + rounded_text(high, 6) + "]\n" +
@@ -355,9 +359,6 @@ std::string gnuplot_script(const Figure& figure) {
   const Legend legend(figure);
   const KeptRows kept(figure);
   std::vector<std::string> lines;
-  if (legend.lines > 0 && !figure.legend.empty())  // without a line of its own
-    lines.push_back("keyentry with lines linecolor rgb '#ffffff' title " +
-                    gnuplot_quoted(figure.legend));
   for (std::size_t i = 0; i < figure.series.size(); ++i)
     lines.push_back(data_line(figure, legend, kept, i));
   if (figure.bar) {

@@ -126,7 +126,9 @@ std::string gnuplot_ticks(const std::string& plot, const std::string& axes) {
     const std::string data = axis == "x" ? "GPVAL_DATA_X_" : "GPVAL_DATA_Y_";
     text += "low = " + data + "MIN\nhigh = " + data + "MAX\n";
     if (axis == "y" && axes.ends_with('0'))
-      text += "if (low > 0) low = 0\nif (high < 0) high = 0\n";
+      text +=
+          "if (low > 0) low = 0\nif (high < 0) high = 0\n"
+          "if (low < 0 && -low < high/20) set autoscale yfixmin\n";  // noise about zero
     text += "if (high > low) set " + axis + "tics step(high - low)\n";
   }
   return text + "set output target\nset termoption noenhanced\nreplot\n";

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "report/run_page.h"
 
 namespace palpate::report {
@@ -55,10 +56,9 @@ std::optional<Range> range_of(const std::vector<record::CaseRecord>& records,
 }
 
 // "Peak force: 0.1 N (`skin`) to 2 N (`bone`)"
-std::string range_text(const char* what, const Range& range, const char* unit) {
-  return std::string(what) + ": " + rounded_text(range.low, 3) + unit + " (" +
-         ticked(range.least->name) + ") to " + rounded_text(range.high, 3) + unit + " (" +
-         ticked(range.most->name) + ")";
+std::string range_text(const std::string& what, const Range& range, const std::string& unit) {
+  return what + ": " + rounded_text(range.low, 3) + unit + " (" + ticked(range.least->name) +
+         ") to " + rounded_text(range.high, 3) + unit + " (" + ticked(range.most->name) + ")";
 }
 
 std::string models(const std::vector<record::CaseRecord>& records) {
@@ -73,18 +73,38 @@ std::string models(const std::vector<record::CaseRecord>& records) {
 }
 
 std::string peaks(const std::vector<record::CaseRecord>& records) {
-  const auto force = range_of(records, [](const auto& one) { return number(one, "peak_force_N"); });
-  const auto strain = range_of(records, [](const auto& one) { return number(one, "peak_strain"); });
-  std::string text = force    ? range_text("Peak force", *force, " N")
-                     : strain ? range_text("Peak strain", *strain, "")
-                              : "Nothing was reached";
-  if (const auto error = range_of(records, [](const auto& one) { return one.answer.stated_error; }))
-    text += ", with errors of " + error_text(error->low) + " to " +
-            (error->high > 1.0 ? error_text(error->high) : percent_text(error->high));
+  std::string text = "Nothing was reached";
+  if (const auto range = range_of(records, [](const auto& one) {
+        const std::optional<Peak> peak = peak_of(one);
+        return peak ? std::optional(peak->value) : std::nullopt;
+      })) {
+    const Peak peak = *peak_of(*range->most);
+    text = range_text("Peak " + peak.of, *range, peak.unit);
+  }
+  if (const auto error =
+          range_of(records, [](const auto& one) { return one.answer.stated_error; })) {
+    const std::string low = error_text(error->low), high = error_text(error->high);
+    text += low == high ? ", with errors of " + low
+                        : ", with errors of " + low + " to " +
+                              (error->high > 1.0 ? high : percent_text(error->high));
+  }
   return text + ".";
 }
 
 }  // namespace
+
+std::optional<Peak> peak_of(const record::CaseRecord& record) {
+  if (const auto force = number(record, "peak_force_N")) return Peak{"force", *force, " N"};
+  if (record.strain.empty()) return std::nullopt;
+  if (number(record, "elastic_strain")) {  // creep, which prescribes the stress
+    const auto strain = number(record, "peak_strain");
+    return strain ? std::optional(Peak{"strain", *strain, ""}) : std::nullopt;
+  }
+  double stress = 0.0;  // Pa
+  for (const record::StrainRow& row : record.strain)
+    stress = std::max(stress, std::abs(row.stress));
+  return Peak{"stress", unit::kPa.from_si(stress), " kPa"};
+}
 
 std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
   struct Kind {

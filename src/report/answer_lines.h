@@ -1,12 +1,22 @@
 // The answers of a run, as `run` and its page say them: short, however many cases a scenario has.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "record/record.h"
 
 namespace palpate::report {
+
+// What a case was run for: the largest force, or without a finger the largest strain under a
+// prescribed stress, or the largest stress under a prescribed strain.
+struct Peak {
+  std::string of = {};  // `force`
+  double value = 0.0;
+  std::string unit = {};  // ` N`
+};
+[[nodiscard]] std::optional<Peak> peak_of(const record::CaseRecord& record);
 
 struct NamedSentence {
   std::string name;  // of a case
@@ -18,7 +28,7 @@ struct NamedSentence {
 [[nodiscard]] std::vector<std::string> said_once(const std::vector<NamedSentence>& all);
 
 // One case: the three sentences of its answer. Several: the models, the range of the largest force
-// (or strain) with its errors, and one line per kind of neglected effect.
+// (strain, stress) with its errors, and one line per kind of neglected effect.
 [[nodiscard]] std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records);
 
 }  // namespace palpate::report

@@ -279,6 +279,7 @@ plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
         records[drawn == 1 ? 0 : i * (records.size() - 1) / (drawn - 1)];
     plot::Series series{
         .case_name = record.name, .scale = display_scale(family, record), .colour = {}};
+    if (records.size() == 1) series.label = "computed";
     if (const auto place = places.find(record.name); place != places.end())
       series.colour = place->second;
     if (colours) {
@@ -470,6 +471,7 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
                             .x_column = figures.back().series.front().x_column,
                             .y_column = "measured_force_N",
                             .label = "measured"};
+      if (records.size() == 1) figures.back().series.front().label = "model";
       figures.back().series.push_back(measured);
     }
   const bool live = std::any_of(records.begin(), records.end(), has_measured_force);

@@ -493,46 +493,90 @@ std::string neglected(const record::Answer& answer) {
   return text;
 }
 
-// The largest force or, without a finger, strain or stress, of a case: `Peak force 1.17 N`.
-std::pair<std::string, std::string> peak_words(const record::CaseRecord& record) {
-  using Words = std::array<const char*, 3>;
-  for (const auto& [name, unit, words] :
-       {Words{"peak_force_N", " N", "Peak force "}, Words{"peak_strain", "", "Peak strain "},
-        Words{"peak_stress_kPa", " kPa", "Peak stress "}})
-    if (const double value = finding_number(record, name); std::isfinite(value))
-      return {words, rounded_text(value, 3) + unit};
-  return {"", "no result"};
+// `1.17 N`
+std::string peak_text(const record::CaseRecord& record) {
+  const std::optional<Peak> peak = peak_of(record);
+  return peak ? rounded_text(peak->value, 3) + peak->unit : "no result";
 }
 
 std::string peak_error(const record::CaseRecord& record) {
   const std::optional<double>& error = record.answer.stated_error;
-  if (record.outcome != record::Outcome::completed) return "until the run ended early";
+  if (record.outcome != record::Outcome::completed) return "until the run ended";
   if (!error) return "error not known";
   return *error > 1.0 ? error_text(*error) + " off" : "± " + percent_text(*error);
 }
 
 record::Table case_table(const Records& records) {
-  record::Table table{{"case", "largest value", "error", "model", "neglected"}, {}};
+  const std::optional<Peak> peak = peak_of(records.front());
+  record::Table table{{"case", peak ? "peak " + peak->of : "peak", "error", "model", "neglected"},
+                      {}};
   for (const record::CaseRecord& record : records)
-    table.rows.push_back({record.name, peak_words(record).second, peak_error(record),
+    table.rows.push_back({record.name, peak_text(record), peak_error(record),
                           finding_word(record, "model"),
                           first_statement(neglected(record.answer))});
   return table;
 }
 
+// Why a case ended early, as a sentence.
+std::string early_end(const record::CaseRecord& record) {
+  return record.reason + "; last stable time " + rounded_text(record.last_stable_time) + " s";
+}
+
+// `a sphere of radius 11 mm`
+std::string finger_text(const scenario::Case& one) {
+  const scenario::Finger& finger = one.scenario.finger;
+  return (finger.spheres == 1 ? std::string("a sphere")
+                              : std::to_string(finger.spheres) + " spheres that stand for one") +
+         " of radius " + rounded_text(unit::mm.from_si(finger.radius), 3) + " mm";
+}
+
+// What was tested, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a sphere of
+// radius 11 mm.`
+std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
+  const scenario::Tissue& tissue = one.scenario.tissue;
+  std::string text = "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
+                     rounded_text(unit::kPa.from_si(tissue.young_modulus.value_or(
+                                      one.materials.tissue.young_modulus.value)),
+                                  3) +
+                     " kPa, nu " + rounded_text(scenario::poisson_ratio(one), 3);
+  if (const std::size_t regions = one.scenario.regions.size(); regions > 0)
+    text += ", with " + std::to_string(regions) + (regions == 1 ? " region" : " regions") +
+            " of other tissue";
+  const double depth = finding_number(record, "peak_travel_mm");
+  if (std::isfinite(depth))
+    text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one);
+  return text + ".";
+}
+
+// The finger of several cases, if it is the same in all.
+std::string common_finger(const scenario::Family& family) {
+  const std::string text = finger_text(family.cases.front());
+  const bool same = std::all_of(family.cases.begin(), family.cases.end(),
+                                [&](const auto& one) { return finger_text(one) == text; });
+  return same && !family.base.uniform() ? "Pressed by " + text + "." : "";
+}
+
 // One case: the force, its error, the model, and what is neglected; several: a table of the same.
-void add_answer(page::Page& page, const Records& records) {
+void add_answer(page::Page& page, const scenario::Family& family, const Records& records) {
   if (records.size() == 1) {
-    const record::Answer& answer = records.front().answer;
+    const record::CaseRecord& record = records.front();
+    const record::Answer& answer = record.answer;
     if (answer.neglected.empty()) return page.answer({answer.model, answer.error});  // no model ran
-    const auto& [words, value] = peak_words(records.front());
-    page.headline(words + value, peak_error(records.front()));
-    page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
+    const std::optional<Peak> peak = peak_of(record);
+    page.headline((peak ? "Peak " + peak->of + " " : "") + peak_text(record), peak_error(record));
+    if (!record.reason.empty()) page.answer({early_end(record)});
+    page.answer({tested(scenario::case_named(family, record.name), record),
+                 first_statement(answer.model), "Neglected: " + neglected(answer)});
   } else if (!records.empty()) {
     std::vector<std::string> lines = answer_lines(records);
     std::erase(lines[1], '`');
     const std::size_t error = std::min(lines[1].find(", with"), lines[1].size());
     page.headline(lines[1].substr(0, error), lines[1].substr(std::min(error + 2, lines[1].size())));
+    std::vector<NamedSentence> ends;
+    for (const record::CaseRecord& record : records)
+      if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
+    page.answer(said_once(ends));
+    if (const std::string finger = common_finger(family); !finger.empty()) page.answer({finger});
     if (records.size() <= most_answers)
       page.answer(
           element("div", page::table("Every case", case_table(records)), {{"class", "whole"}}));
@@ -547,7 +591,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   const scenario::Family& family = shown.family;
   const Records& records = shown.records;
   page::Page page(family.title, "run");
-  add_answer(page, records);
+  add_answer(page, family, records);
   for (const record::CaseRecord& record : records)
     if (!record.answer.verdict.empty())
       page.answer({"Beside the device: " + record.answer.verdict + "."});
@@ -580,7 +624,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
       page::making({.command = "palpate run scenario.toml",
                     .note = live ? "A live run follows its device, so that this command repeats "
                                    "the loading history and not the motion of the device."
-                                 : ""},
+                                 : "How long it took stands in run.json."},
                    inputs, folder),
       folded);
   page::write(std::move(page), folder);

@@ -515,9 +515,11 @@ Markup slider(const std::string& id, const std::string& label, const std::string
 }  // namespace
 
 Markup scene_view(const record::ScenePicture& picture, const std::string& title) {
-  std::string words = "Specimen";
+  std::vector<std::string> materials;
   for (const std::string& material : picture.materials)
-    words += (&material == picture.materials.data() ? " of " : ", ") + material;
+    if (std::find(materials.begin(), materials.end(), material) == materials.end())
+      materials.push_back(material);
+  std::string words = "Specimen of " + joined(materials, ", ");
   words += picture.finger.empty()
                ? std::string(" before anything moves.")
                : " and finger at first contact; the arrow is the largest displacement, " +

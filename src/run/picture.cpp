@@ -44,14 +44,14 @@ std::vector<Face> faces(const geometry::TetMesh& mesh) {
   return found;
 }
 
-geometry::Surface ball(const scenario::Lump& lump) {
-  const Vec3 radius = Vec3::Constant(lump.radius);
-  geometry::Surface surface =
-      geometry::sampled(geometry::Ellipsoid{2.0 * radius}, {0.4 * lump.radius, 0.4 * lump.radius})
-          .parts.front()
-          .surface;
+geometry::Surface ball(const scenario::Inclusion& inclusion) {
+  const Vec3 radius = Vec3::Constant(inclusion.radius);
+  geometry::Surface surface = geometry::sampled(geometry::Ellipsoid{2.0 * radius},
+                                                {0.4 * inclusion.radius, 0.4 * inclusion.radius})
+                                  .parts.front()
+                                  .surface;
   for (Vec3& vertex : surface.vertices)
-    vertex += Vec3(lump.centre[0], lump.centre[1], lump.centre[2]) - radius;
+    vertex += Vec3(inclusion.centre[0], inclusion.centre[1], inclusion.centre[2]) - radius;
   return surface;
 }
 
@@ -73,8 +73,8 @@ geometry::Body given_body(const scene::Scene& scene) {
     for (Vec3& vertex : body.parts.front().surface.vertices) vertex += corner;
   }
   for (std::size_t i = 0; i < scenario.regions.size(); ++i)
-    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
-      body.parts.push_back({ball(*lump), static_cast<int>(i) + 1});
+    if (const auto* inclusion = std::get_if<scenario::Inclusion>(&scenario.regions[i].part))
+      body.parts.push_back({ball(*inclusion), static_cast<int>(i) + 1});
   return body;
 }
 

@@ -118,7 +118,7 @@ class Refining {
     std::vector<double> levels = scene::slab_levels(press);
     if (press.tissue.held_from_below()) levels.push_back(shape.base_level);
     meshing::TrueBoundary boundary(shape.mesh, scene::parametric(press.tissue.shape),
-                                   scene::lumps_of(press), levels);
+                                   scene::inclusions_of(press), levels);
     scene::Refined told{.start_nodes = static_cast<int>(shape.mesh.nodes.size()),
                         .wanted = scene::refined_share * press.solver.tolerance};
     const double base_level = shape.base_level;
@@ -181,7 +181,7 @@ class Refining {
     bisection.halve(marks);
     geometry::TetMesh finer = bisection.mesh();
     if (static_cast<int>(finer.nodes.size()) > most_nodes_) return std::nullopt;
-    trial.restore_lumps(finer);
+    trial.restore_inclusions(finer);
     meshing::check(finer, "the refined mesh", 0.0);
     boundary = std::move(trial);
     return finer;

@@ -52,7 +52,7 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   asked_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
   included_ = std::any_of(
       scene.scenario.regions.begin(), scene.scenario.regions.end(),
-      [](const auto& region) { return std::holds_alternative<scenario::Lump>(region.part); });
+      [](const auto& region) { return std::holds_alternative<scenario::Inclusion>(region.part); });
   if (count == 1 && included_) asked_.front() = beside_inclusion;
   per_radius_ = asked_;
   make();
@@ -122,9 +122,10 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.region_of = [&scenario](int part) { return scene::substance_of(scenario, part); };
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     solid::Inclusion one{.region = static_cast<int>(i) + 1};
-    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
-      one.lump = geometry::Lump{Vec3(lump->centre[0], lump->centre[1], lump->centre[2]),
-                                inclusion_size_ * lump->radius, one.region};
+    if (const auto* inclusion = std::get_if<scenario::Inclusion>(&scenario.regions[i].part))
+      one.sphere = geometry::Inclusion{
+          Vec3(inclusion->centre[0], inclusion->centre[1], inclusion->centre[2]),
+          inclusion_size_ * inclusion->radius, one.region};
     else if (const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part))
       std::tie(one.bottom, one.top) = std::pair(slab->bottom, slab->top);
     else

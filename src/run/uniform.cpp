@@ -134,10 +134,10 @@ class UniformTest {
     const bool folds = tissue::inverted(specimen_.mesh, state_.displacement);
     const contact::Creep law = contact::creep(scene::relaxation_of(specimen_.law));
     const double start = time_;
-    const auto row = [&](double after, double stress, double crept) {
+    const auto row = [&](double after, double stress, double ratio) {
       StopScope::end_if_stopped();
-      add_row(start + after, stress, crept * settled);
-      return !folds || !tissue::inverted(specimen_.mesh, crept * state_.displacement) ||
+      add_row(start + after, stress, ratio * settled);
+      return !folds || !tissue::inverted(specimen_.mesh, ratio * state_.displacement) ||
              diverged(folded);
     };
     if (!row(0.0, creep.stress, law.compliance_ratio(0.0))) return false;

@@ -170,10 +170,10 @@ class Checker {
       problem("tissue.mesh",
               "`kuhn` and `mirrored` cells fill a `cuboid` only; set `tissue.mesh = { kind = "
               "\"tetgen\", nodes = 728 }`");
-    const bool lumps =
-        std::any_of(scenario_.regions.begin(), scenario_.regions.end(),
-                    [](const Region& region) { return std::holds_alternative<Lump>(region.part); });
-    if (meshed && lumps && !std::holds_alternative<Tetgen>(tissue.mesh))
+    const bool inclusions = std::any_of(
+        scenario_.regions.begin(), scenario_.regions.end(),
+        [](const Region& region) { return std::holds_alternative<Inclusion>(region.part); });
+    if (meshed && inclusions && !std::holds_alternative<Tetgen>(tissue.mesh))
       problem("tissue.mesh",
               "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
               "kind = \"tetgen\", nodes = 1500 }`");

@@ -398,7 +398,7 @@ static void fields(FieldVisitor& visitor, TaggedRegion& region) {
                  {region.name.empty(), "without `name`", Use::Otherwise::note}},
                 region.tag, between(0, 1e9));
 }
-static void fields(FieldVisitor& visitor, Lump& region) {
+static void fields(FieldVisitor& visitor, Inclusion& region) {
   visitor.quantities({"centre",
                       "In the coordinates of the file that gives the body, or from the lowest "
                       "corner of a shape that "

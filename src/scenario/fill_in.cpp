@@ -137,11 +137,11 @@ void complete_contact(Scenario& scenario, const Node& document) {
 }  // namespace
 
 Mesh mesh_left_open(const Scenario& scenario) {
-  const bool lumps =
-      std::any_of(scenario.regions.begin(), scenario.regions.end(),
-                  [](const Region& region) { return std::holds_alternative<Lump>(region.part); });
+  const bool inclusions = std::any_of(
+      scenario.regions.begin(), scenario.regions.end(),
+      [](const Region& region) { return std::holds_alternative<Inclusion>(region.part); });
   Mesh mesh = Tissue{}.mesh;
-  if (lumps || !std::holds_alternative<Cuboid>(scenario.tissue.shape)) mesh = Tetgen{};
+  if (inclusions || !std::holds_alternative<Cuboid>(scenario.tissue.shape)) mesh = Tetgen{};
   refinement(mesh).refine = true;
   return mesh;
 }

@@ -150,7 +150,7 @@ struct TaggedRegion {
   int tag = 1;
   std::string name = {};  // of a group in the mesh file; if it is empty, `tag` counts
 };
-struct Lump {
+struct Inclusion {
   static constexpr Word word{"sphere", "An inclusion inside the specimen."};
   std::array<double, 3> centre{0.030, 0.030, 0.022};  // m
   double radius = 0.005;                              // m
@@ -160,7 +160,7 @@ struct Slab {
   double bottom = 0.0;  // m, like `top` a height
   double top = 0.010;
 };
-using Part = std::variant<TaggedRegion, Lump, Slab>;
+using Part = std::variant<TaggedRegion, Inclusion, Slab>;
 
 // A part of the specimen with another material than `tissue.material`.
 struct PlainRegion {

@@ -475,7 +475,7 @@ bool all_slabs(const scenario::Resolved& scenario) {
 
 bool several_tissues(const scenario::Resolved& scenario) {
   return std::any_of(scenario.regions.begin(), scenario.regions.end(), [&](const auto& region) {
-    return std::holds_alternative<scenario::Lump>(region.part) ||
+    return std::holds_alternative<scenario::Inclusion>(region.part) ||
            region.young_modulus != scenario.tissue.young_modulus ||
            region.poisson_ratio != scenario.tissue.poisson_ratio;
   });

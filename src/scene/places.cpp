@@ -285,9 +285,10 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
           (scenario.tissue.base_up - along).norm() < rounding)
         scenario.tissue.base_up = along;
   for (scenario::Resolved::Region& region : scenario.regions)
-    if (auto* lump = std::get_if<scenario::Lump>(&region.part)) {
-      const Vec3 centre = turn * Vec3(lump->centre[0], lump->centre[1], lump->centre[2]);
-      lump->centre = {centre.x(), centre.y(), centre.z()};
+    if (auto* inclusion = std::get_if<scenario::Inclusion>(&region.part)) {
+      const Vec3 centre =
+          turn * Vec3(inclusion->centre[0], inclusion->centre[1], inclusion->centre[2]);
+      inclusion->centre = {centre.x(), centre.y(), centre.z()};
     }
   if (scenario.uniform()) return;
   if (finger.at.size() == 3) {
@@ -361,14 +362,14 @@ BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& 
   return {base / geometry::area(body), below > 0.0 ? held / below : 0.0};
 }
 
-double share_inside(const geometry::Surface& body, const geometry::Lump& lump) {
+double share_inside(const geometry::Surface& body, const geometry::Inclusion& inclusion) {
   // Vertical lines through a grid on the inclusion's disc; its offset avoids vertices and edges.
   constexpr int lines = 41;
   constexpr double offset = 0.4142;
-  const double step = 2.0 * lump.radius / lines;
-  const double r = lump.radius;
+  const double step = 2.0 * inclusion.radius / lines;
+  const double r = inclusion.radius;
   const auto along = [&](int axis, int i) {
-    return lump.centre[axis] - r + (i + offset + 0.01 * axis) * step;
+    return inclusion.centre[axis] - r + (i + offset + 0.01 * axis) * step;
   };
   std::vector<std::vector<double>> crossings(lines * lines);
   for (const auto& triangle : body.triangles) {
@@ -401,14 +402,14 @@ double share_inside(const geometry::Surface& body, const geometry::Lump& lump) {
   double inside = 0.0, all = 0.0;
   for (int i = 0; i < lines; ++i)
     for (int j = 0; j < lines; ++j) {
-      const double x = along(0, i) - lump.centre.x(), y = along(1, j) - lump.centre.y();
+      const double x = along(0, i) - inclusion.centre.x(), y = along(1, j) - inclusion.centre.y();
       const double half = std::sqrt(std::max(0.0, r * r - x * x - y * y));
       all += 2.0 * half;
       std::vector<double>& heights = crossings[as_index(i * lines + j)];
       std::sort(heights.begin(), heights.end());
       for (std::size_t k = 0; k + 1 < heights.size(); k += 2)
-        inside += std::max(0.0, std::min(heights[k + 1], lump.centre.z() + half) -
-                                    std::max(heights[k], lump.centre.z() - half));
+        inside += std::max(0.0, std::min(heights[k + 1], inclusion.centre.z() + half) -
+                                    std::max(heights[k], inclusion.centre.z() - half));
     }
   return inside / all;
 }
@@ -430,7 +431,7 @@ void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface&
                                  "z " + range_text(box.low.z(), box.high.z()) + " mm" + where,
                                  "change `bottom` and `top`"));
     }
-    if (const auto* ball = std::get_if<scenario::Lump>(&scenario.regions[i].part)) {
+    if (const auto* ball = std::get_if<scenario::Inclusion>(&scenario.regions[i].part)) {
       const Vec3 centre(ball->centre[0], ball->centre[1], ball->centre[2]);
       const double share = share_inside(body, {centre, ball->radius, 0});
       const Vec3 in_file = scenario.tissue.turn.transpose() * centre;

@@ -57,7 +57,8 @@ struct BaseArea {
                                  const Vec3& place, double radius);
 
 // The part of an inclusion that lies inside a closed surface, 0 to 1; error below 0.002.
-[[nodiscard]] double share_inside(const geometry::Surface& body, const geometry::Lump& lump);
+[[nodiscard]] double share_inside(const geometry::Surface& body,
+                                  const geometry::Inclusion& inclusion);
 
 // Throws InputError with both boxes for an inclusion of which less than 99 % lies inside the body,
 // a layer of which less than 99 % lies in its height, and a base above or below the body.

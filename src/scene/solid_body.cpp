@@ -53,7 +53,7 @@ std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string
   const geometry::Surface& outer_surface = body->outer_surface->surface();
   body->base_level = base_level(scenario, outer_surface);
 
-  refuse_covered_lumps(scenario);
+  refuse_covered_inclusions(scenario);
   const SurfaceTouch& touch = scene.choice.touch;
   if (body->shape && touch.known() && scene.finger.centres.size() == 1) {
     body->first_touch = touch.lowest + scene.finger.sphere_radius * Vec3::UnitZ();

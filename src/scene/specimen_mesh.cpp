@@ -58,17 +58,17 @@ meshing::Target target(const scenario::Tetgen& mesh) {
 }
 
 // With the numbers of the mesh.
-std::vector<geometry::Lump> numbered_lumps(const Scenario& scenario) {
-  std::vector<geometry::Lump> lumps = lumps_of(scenario);
-  for (geometry::Lump& lump : lumps) lump.region += first_own - 1;
-  return lumps;
+std::vector<geometry::Inclusion> numbered_inclusions(const Scenario& scenario) {
+  std::vector<geometry::Inclusion> inclusions = inclusions_of(scenario);
+  for (geometry::Inclusion& inclusion : inclusions) inclusion.region += first_own - 1;
+  return inclusions;
 }
 
 geometry::TetMesh tetgen_mesh(const Scenario& scenario, const scenario::Tetgen& mesh) {
   const std::optional<geometry::Shape> known = parametric(scenario.tissue.shape);
   if (!known) throw MeshError("this `tissue.shape` has no mesh; give another one, as `cuboid`");
   const geometry::Shape& shape = *known;
-  const std::vector<geometry::Lump> inside = numbered_lumps(scenario);
+  const std::vector<geometry::Inclusion> inside = numbered_inclusions(scenario);
   const auto* box = std::get_if<geometry::Cuboid>(&shape);
   if (box != nullptr && inside.empty() && !mesh.edge)
     return meshing::tetgen_cuboid(box->size, mesh.nodes, meshing_time);
@@ -102,7 +102,7 @@ void refuse_huge(const scenario::Mesh& mesh) {
 SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
                       const geometry::Surface* of_file) {
   refuse_huge(scenario.tissue.mesh);
-  refuse_covered_lumps(scenario);
+  refuse_covered_inclusions(scenario);
   SpecimenMesh made;
   geometry::TetMesh& mesh = made.mesh;
   std::string name;
@@ -124,8 +124,8 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
     if (of_file == nullptr) {
       mesh = tetgen_mesh(scenario, *tetgen);
     } else {
-      auto [found, warning] =
-          meshing::tetgen_file(*of_file, numbered_lumps(scenario), target(*tetgen), meshing_time);
+      auto [found, warning] = meshing::tetgen_file(*of_file, numbered_inclusions(scenario),
+                                                   target(*tetgen), meshing_time);
       made = {std::move(found), std::move(warning)};
     }
   } else {
@@ -242,19 +242,19 @@ std::vector<double> slab_levels(const Scenario& scenario) {
   return {heights.begin(), heights.end()};
 }
 
-void refuse_covered_lumps(const Scenario& scenario) {
+void refuse_covered_inclusions(const Scenario& scenario) {
   // The part of a ball below a level: a cap of the height h has the volume pi h^2 (3 r - h) / 3.
-  const auto below = [](const scenario::Lump& lump, double level) {
-    const double r = lump.radius;
-    const double h = std::clamp(level - (lump.centre[2] - r), 0.0, 2.0 * r);
+  const auto below = [](const scenario::Inclusion& inclusion, double level) {
+    const double r = inclusion.radius;
+    const double h = std::clamp(level - (inclusion.centre[2] - r), 0.0, 2.0 * r);
     return h * h * (3.0 * r - h) / (4.0 * r * r * r);
   };
   for (std::size_t i = 0; i < scenario.regions.size(); ++i)
     for (std::size_t j = i + 1; j < scenario.regions.size(); ++j) {
-      const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part);
+      const auto* inclusion = std::get_if<scenario::Inclusion>(&scenario.regions[i].part);
       const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[j].part);
-      if (lump == nullptr || slab == nullptr) continue;
-      const double taken = below(*lump, slab->top) - below(*lump, slab->bottom);
+      if (inclusion == nullptr || slab == nullptr) continue;
+      const double taken = below(*inclusion, slab->top) - below(*inclusion, slab->bottom);
       if (taken > 0.01)
         throw MeshError("`[[region]]` " + std::to_string(j + 1) + ", a layer, covers " +
                         percent_text(taken) + " of the inclusion of `[[region]]` " +
@@ -263,12 +263,12 @@ void refuse_covered_lumps(const Scenario& scenario) {
     }
 }
 
-std::vector<geometry::Lump> lumps_of(const Scenario& scenario) {
-  std::vector<geometry::Lump> found;
+std::vector<geometry::Inclusion> inclusions_of(const Scenario& scenario) {
+  std::vector<geometry::Inclusion> found;
   for (std::size_t i = 0; i < scenario.regions.size(); ++i)
-    if (const auto* lump = std::get_if<scenario::Lump>(&scenario.regions[i].part))
-      found.push_back({Vec3(lump->centre[0], lump->centre[1], lump->centre[2]), lump->radius,
-                       static_cast<int>(i) + 1});
+    if (const auto* inclusion = std::get_if<scenario::Inclusion>(&scenario.regions[i].part))
+      found.push_back({Vec3(inclusion->centre[0], inclusion->centre[1], inclusion->centre[2]),
+                       inclusion->radius, static_cast<int>(i) + 1});
   return found;
 }
 

@@ -23,11 +23,11 @@ namespace palpate::scene {
 [[nodiscard]] std::vector<double> slab_levels(const scenario::Resolved& scenario);
 
 // The scenario's inclusions; their regions' numbers are those of specimen_mesh().
-[[nodiscard]] std::vector<geometry::Lump> lumps_of(const scenario::Resolved& scenario);
+[[nodiscard]] std::vector<geometry::Inclusion> inclusions_of(const scenario::Resolved& scenario);
 
 // Regions are laid in their order, later over earlier. Throws MeshError if a layer takes more than
 // a hundredth of an inclusion before it.
-void refuse_covered_lumps(const scenario::Resolved& scenario);
+void refuse_covered_inclusions(const scenario::Resolved& scenario);
 
 // The surface from the scenario's file, not turned. Throws InputError if it cannot be read,
 // MeshError if it bounds no body.

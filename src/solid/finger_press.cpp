@@ -48,9 +48,9 @@ Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
     highest = std::max(highest, at.z());
   }
   for (const Inclusion& one : order.inclusions) {
-    if (one.lump) {
-      sizes.spots.push_back({one.lump->centre, one.lump->radius,
-                             one.lump->radius / std::min(4.0, 0.55 * order.per_radius + 0.5)});
+    if (one.sphere) {
+      sizes.spots.push_back({one.sphere->centre, one.sphere->radius,
+                             one.sphere->radius / std::min(4.0, 0.55 * order.per_radius + 0.5)});
       continue;
     }
     for (const double level : {one.bottom, one.top}) {
@@ -82,15 +82,15 @@ std::vector<Plane> mirrors_of(const BodyOrder& order, const Extent& extent) {
     const double near = 1e-6 * (extent.high[axis] - extent.low[axis]);
     if (std::abs(order.touched.front()[axis] - middle) > near) continue;
     const Plane plane{axis, middle};
-    const bool lumps =
+    const bool spheres =
         std::all_of(order.inclusions.begin(), order.inclusions.end(), [&](const Inclusion& one) {
-          return !one.lump || std::abs(plane.beyond(one.lump->centre)) < near;
+          return !one.sphere || std::abs(plane.beyond(one.sphere->centre)) < near;
         });
     // Of the shapes, all are symmetric across x, and all but the tapered limb across y.
     const bool body =
         order.shape ? axis == 0 || !std::holds_alternative<geometry::LayeredLimb>(*order.shape)
                     : symmetric(order.surface->surface(), plane);
-    if (lumps && body) found.push_back(plane);
+    if (spheres && body) found.push_back(plane);
   }
   return found;
 }

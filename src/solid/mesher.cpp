@@ -21,8 +21,8 @@ namespace {
 constexpr double time_limit = 300.0;  // s
 constexpr double growth = 0.35;
 
-// Numbers of faces: flat ones, those of a file, the shape's round ones, then lumps, then planes.
-enum Number { flat = 1, of_file = 2, first_round = 3, first_lump = 10, first_plane = 1000 };
+// Numbers of faces: flat ones, those of a file, the shape's round ones, then spheres, then planes.
+enum Number { flat = 1, of_file = 2, first_round = 3, first_sphere = 10, first_plane = 1000 };
 
 class Mesher {
  public:
@@ -40,7 +40,7 @@ class Mesher {
       net.drop_below(mirror);
     }
     for (const Inclusion& one : order_.inclusions)
-      if (!one.lump)
+      if (!one.sphere)
         for (const double level : {one.bottom, one.top})
           if (level > low_.z() && level < high_.z()) add_level(level);
     for (const Plane& level : levels_) net.cut(level);
@@ -96,19 +96,19 @@ class Mesher {
       high_ = high_.cwiseMax(vertex);
     }
     for (std::size_t i = 0; i < order_.inclusions.size(); ++i) {
-      if (!order_.inclusions[i].lump) continue;
-      const geometry::Lump& lump = *order_.inclusions[i].lump;
+      if (!order_.inclusions[i].sphere) continue;
+      const geometry::Inclusion& sphere = *order_.inclusions[i].sphere;
       geometry::Body checked = body_;
-      geometry::add_lump(checked, lump, 0.5 * lump.radius);  // refuses one that sticks out
-      const double edge = std::min(0.75 * lump.radius, 1.2 * order_.sizes.at(lump.centre));
+      geometry::add_inclusion(checked, sphere, 0.5 * sphere.radius);  // refuses one that sticks out
+      const double edge = std::min(0.75 * sphere.radius, 1.2 * order_.sizes.at(sphere.centre));
       const geometry::Surface ball =
-          geometry::ellipsoid_surface(lump.centre, Vec3::Constant(2.0 * lump.radius), edge);
+          geometry::ellipsoid_surface(sphere.centre, Vec3::Constant(2.0 * sphere.radius), edge);
       const int before = static_cast<int>(faces_.vertices.size());
       faces_.vertices.insert(faces_.vertices.end(), ball.vertices.begin(), ball.vertices.end());
       for (auto triangle : ball.triangles) {
         for (int& v : triangle) v += before;
         faces_.triangles.push_back(triangle);
-        numbers_.push_back(first_lump + static_cast<int>(i));
+        numbers_.push_back(first_sphere + static_cast<int>(i));
       }
     }
   }
@@ -132,12 +132,13 @@ class Mesher {
   // The place on the first of these faces that is not flat.
   [[nodiscard]] Vec3 onto(const Vec3& point, std::span<const int> numbers) const {
     for (const int number : numbers)
-      if (number >= first_lump && number < first_plane) {
-        const geometry::Lump& lump = *order_.inclusions[as_index(number - first_lump)].lump;
-        return lump.centre + lump.radius * (point - lump.centre).normalized();
+      if (number >= first_sphere && number < first_plane) {
+        const geometry::Inclusion& sphere =
+            *order_.inclusions[as_index(number - first_sphere)].sphere;
+        return sphere.centre + sphere.radius * (point - sphere.centre).normalized();
       }
     for (const int number : numbers) {
-      if (number >= first_round && number < first_lump)
+      if (number >= first_round && number < first_sphere)
         return geometry::onto(*order_.shape, point, number - first_round);
       if (number == of_file) {
         const geometry::Near near = tree_->nearest(point);
@@ -275,8 +276,8 @@ class Mesher {
     if (order_.shape) found = geometry::region_at(body_, place).value_or(0);
     if (order_.region_of) found = order_.region_of(found);
     for (const Inclusion& one : order_.inclusions)
-      if (one.lump ? (place - one.lump->centre).norm() < one.lump->radius
-                   : place.z() > one.bottom && place.z() < one.top)
+      if (one.sphere ? (place - one.sphere->centre).norm() < one.sphere->radius
+                     : place.z() > one.bottom && place.z() < one.top)
         found = one.region;
     return found;
   }
@@ -311,7 +312,7 @@ class Mesher {
 
   const MeshOrder& order_;
   std::optional<geometry::BoxTree> tree_;
-  geometry::Body body_;  // as sampled, without lumps
+  geometry::Body body_;  // as sampled, without inclusions
   std::vector<geometry::Surface> cavities_;
   geometry::Surface faces_;
   std::vector<int> numbers_;

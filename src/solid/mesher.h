@@ -33,8 +33,8 @@ struct Sizes {
 // A part of a body with a tissue of its own: a ball, or a slab from side to side.
 struct Inclusion {
   int region = 0;
-  std::optional<geometry::Lump> lump = {};  // its `region` is not used
-  double bottom = 0.0, top = 0.0;           // m, of a slab
+  std::optional<geometry::Inclusion> sphere = {};  // its `region` is not used
+  double bottom = 0.0, top = 0.0;                  // m, of a slab
 };
 
 struct MeshOrder {

@@ -74,7 +74,7 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
   if (!more.empty()) {
     if (map.longest_step)
       page.headline(rounded_text(1e6 * *map.longest_step, 4) + " µs",
-                    "longest stable step of central differences");
+                    "longest safe step of central differences");
     page.answer({more.front()});
     more.erase(more.begin());
   }
@@ -83,28 +83,33 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
         return "Longest stable time step over the model, each quantity of the scenario, and which "
                "failures were seen: theory as lines, measurements as points.";
       }));
-  page.section("In words", page::paragraphs(more), page::Page::Shown::folded);
+  constexpr auto folded = page::Page::Shown::folded;
+  page.section("In words", page::paragraphs(more), folded);
   constexpr std::size_t most = 60;
   const record::Table limits = limit_table(map), failures = failure_table(map);
   const std::string of_limits = "Limits of the time step, measured and by theory";
   const std::string of_failures = "Kinds of failure and whether they were seen";
-  page.section("Limits", page::table_of_file(
-                             of_limits,
-                             page::columns_of(limits, {"integrator", "model", "damping", "axis",
-                                                       "value", "limit_us", "theory_us", "ratio"}),
-                             "stability.csv", most));
+  page.section(
+      "Limits",
+      page::table_of_file(of_limits,
+                          page::columns_of(limits, {"integrator", "model", "damping", "axis",
+                                                    "value", "limit_us", "theory_us", "ratio"}),
+                          "stability.csv", most),
+      folded);
   page.section(
       "Failures",
       page::table_of_file(of_failures,
                           page::columns_of(failures, {"failure", "seen", "integrator", "setting",
                                                       "setting_unit", "measured", "theory"}),
-                          "failures.csv", most));
+                          "failures.csv", most),
+      folded);
   page.section("Every column",
                page::table_of_file(of_limits, limits, "stability.csv", most) +
                    page::table_of_file(of_failures, failures, "failures.csv", most),
-               page::Page::Shown::folded);
+               folded);
   page.section("How it was made",
-               page::making({.command = "palpate stability " + title + ".toml"}, {}, folder));
+               page::making({.command = "palpate stability " + title + ".toml"}, {}, folder),
+               folded);
   page::write(std::move(page), folder);
   return folder.put(WholeFolder::State::complete, warnings);
 }
@@ -215,7 +220,8 @@ std::string agreement(const stability::StabilityMap& map) {
                     "' title '" + curve.label + "'");
   }
   return panel(map, "model", Scale::logarithmic, "Every model and damping", "limit by theory, µs") +
-         "set key at screen 0.5, screen 0.975 center top vertical maxrows 1 Left reverse samplen 1 "
+         "set key at screen 0.54, screen 0.975 center top vertical maxrows 1 Left reverse samplen "
+         "1 "
          "font ',13'\n"
          "plot \\\n  " +
          joined(lines, ", \\\n  ") + "\nunset key\n";
@@ -255,11 +261,11 @@ std::string strip() {
 }  // namespace
 
 plot::Sheet stability_sheet(const std::string& title, const stability::StabilityMap& map) {
-  std::string text = plot::gnuplot_head("stability", {.height = 1480, .tick_font = 13});
+  std::string text = plot::gnuplot_head("stability", {.height = 1560, .tick_font = 13});
   text +=
       "set datafile missing NaN\nset xtics offset 0,0.3\nset ytics offset 0.5,0\n"
       "set title offset 0,-0.6 font ',13'\nset xlabel offset 0,0.9 font ',13'\nunset key\n"
-      "set multiplot layout 5,2 margins screen 0.11,0.975,0.19,0.93 spacing screen 0.13,0.055 "
+      "set multiplot layout 5,2 margins screen 0.11,0.975,0.19,0.93 spacing screen 0.13,0.064 "
       "title " +
       plot::gnuplot_quoted("Limit of the time step (µs), " + title +
                            ": theory as lines, measurements as points") +
@@ -269,7 +275,7 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
                               const char* x_label) {
     text += panel(map, axis, scale, heading, x_label) + curves(map, method_curves, axis);
   };
-  of_methods("young_modulus_Pa", Scale::logarithmic, "Young's modulus", "Pa");
+  of_methods("young_modulus_Pa", Scale::logarithmic, "Young's modulus", "modulus, Pa");
   text += panel(map, "poisson_ratio", Scale::linear_x, "Volume term of coupled springs",
                 "Poisson's ratio") +
           "set key default bottom left Left reverse samplen 1 spacing 1.1 font ',13'\nset xrange "
@@ -278,7 +284,7 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
           curves(map, volume_curves, "poisson_ratio", Legend::own) +
           "unset key\nset xrange [*:*]\n";
   of_methods("shortest_edge_mm", Scale::logarithmic, "Element size", "shortest edge, mm");
-  of_methods("damping_per_s", Scale::logarithmic, "Damping of nodes", "1/s");
+  of_methods("damping_per_s", Scale::logarithmic, "Damping of nodes", "damping, 1/s");
   of_methods("retardation_time_s", Scale::logarithmic, "Dashpots along springs",
              "retardation time, s");
   of_methods("relaxation_time_s", Scale::linear_y, "Standard linear solid", "relaxation time, s");

@@ -1,5 +1,6 @@
 // The gnuplot script of a map with its curves.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/index.h"
@@ -103,7 +104,7 @@ std::string names_of_lines(const Response& response, const Lines& lines) {
 std::string data_of_lines(const Response& response, const Lines& lines) {
   const bool log_x = logarithmic(response.across);
   const bool log_y = logarithmic(*response.along);
-  std::string text = "$contours << EOD\n";
+  std::string text = "$contours << EOD\nx0,y0,x1,y1\n";  // gnuplot takes the first row for a head
   for (const plot::Segment& one : lines.segments) {
     const std::string x0 = rounded_text(back(one.x0, log_x), 6);
     const std::string y0 = rounded_text(back(one.y0, log_y), 6);
@@ -183,7 +184,10 @@ std::string narrow_label(const sweep::FactorChoice& factor) {
   std::string label = factor_label(factor);
   if (label.size() <= 14) return label;
   const std::size_t unit = std::min(label.find(" ("), label.size());
-  const std::size_t dot = label.rfind('.', unit);
+  std::size_t dot = label.rfind('.', unit);
+  const bool part =
+      dot + 2 == unit && std::isdigit(static_cast<unsigned char>(label[dot + 1])) != 0;
+  if (part && dot > 0) dot = label.rfind('.', dot - 1);  // `size.3`
   return dot == std::string::npos ? label : label.substr(dot + 1);
 }
 

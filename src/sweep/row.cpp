@@ -45,13 +45,13 @@ record::Table journal_row(const SweepRow& row) {
   record::Table warnings{{"warning"}, {}};
   for (const std::string& warning : row.warnings) warnings.rows.push_back({warning});
   const std::string curve = row.curve.columns.empty() ? "" : record::csv_text(row.curve);
-  return {{"id", "attempt", "outcome", "reason", "name", "values", "remarks", "curve"},
+  return {{"id", "attempt", "outcome", "reason", "name", "values", "warnings", "curve"},
           {{id_text(row.id), static_cast<double>(row.attempt), outcome_word(row.outcome),
             row.reason, row.name, record::csv_text(values), record::csv_text(warnings), curve}}};
 }
 
 std::optional<SweepHead> head_of(const record::Table& row) {
-  for (const char* column : {"id", "outcome", "reason", "name", "values", "remarks", "curve"})
+  for (const char* column : {"id", "outcome", "reason", "name", "values", "warnings", "curve"})
     if (record::value_in<std::string>(row, column) == nullptr) return std::nullopt;
   const auto id = id_of(*record::value_in<std::string>(row, "id"));
   const auto* attempt = record::value_in<double>(row, "attempt");
@@ -79,7 +79,7 @@ std::optional<SweepRow> row_of(const record::Table& row) {
       if (name == nullptr || value.size() != 2) return std::nullopt;
       read.values.push_back({*name, std::move(value[1])});
     }
-    for (const auto& warning : record::parse_csv(word("remarks"), "remarks").rows) {
+    for (const auto& warning : record::parse_csv(word("warnings"), "warnings").rows) {
       const auto* sentence = std::get_if<std::string>(warning.data());
       if (sentence == nullptr) return std::nullopt;
       read.warnings.push_back(*sentence);

@@ -21,6 +21,33 @@ std::string range_text(const OutputColumn& output) {
   return text;
 }
 
+// `case 3 (tissue.young_modulus 5 kPa)`, by the number in results.csv
+std::string case_text(const SweepColumns& columns, std::size_t at) {
+  std::string text;
+  for (const FactorColumn& factor : columns.factors) {
+    const std::string label = factor_label(factor.choice);
+    const std::size_t unit = std::min(label.find(" ("), label.size());
+    const double value = factor.values[at];
+    text += (text.empty() ? "" : ", ") + label.substr(0, unit) + " " +
+            (factor.is_number() ? rounded_text(value, 4)
+                                : factor.words[static_cast<std::size_t>(value)]);
+    if (unit < label.size()) text += " " + label.substr(unit + 2, label.size() - unit - 3);
+  }
+  return "case " + std::to_string(at + 1) + (text.empty() ? "" : " (" + text + ")");
+}
+
+// Which cases have the smallest and the largest value.
+std::string extremes(const SweepColumns& columns, const OutputColumn& output) {
+  const Ends range = ends(output.values);
+  if (!(range.low < range.high)) return {};
+  const auto at = [&](double value) {
+    return static_cast<std::size_t>(std::find(output.values.begin(), output.values.end(), value) -
+                                    output.values.begin());
+  };
+  return "Least in " + case_text(columns, at(range.low)) + ", largest in " +
+         case_text(columns, at(range.high)) + ".";
+}
+
 // For each output its range, and the factor on which it depends most. The first range is above.
 std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivity& found) {
   std::vector<std::string> all;
@@ -56,7 +83,10 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   if (shown.columns.outputs.empty()) {
     answer.push_back(shown.totals);
   } else {
-    page.headline(range_text(shown.columns.outputs.front()), shown.totals);
+    const OutputColumn& first = shown.columns.outputs.front();
+    page.headline(range_text(first), "(" + shown.totals.substr(0, shown.totals.rfind('.')) + ")");
+    if (const std::string cases = extremes(shown.columns, first); !cases.empty())
+      answer.insert(answer.begin(), cases);
   }
   page.answer(answer);
   page.section("Figures", page::all_figures(folder, figure_words));
@@ -73,11 +103,13 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
         page::table_of_file("Rank correlations", correlation_table(found), "correlation.csv", most);
   page.section("Sensitivity", tables);
   page.section("Warnings", page::paragraphs(shown.warnings));
-  page.section("Scenario", page::folded("The scenario as written", shown.scenario));
+  constexpr auto folded = page::Page::Shown::folded;
+  page.section("Scenario", page::folded("The scenario as written", shown.scenario), folded);
   page.section("How it was made",
                page::making({.command = "palpate sweep plan SCENARIO.toml --out PLAN\n"
                                         "palpate sweep run PLAN\npalpate sweep merge PLAN"},
-                            {}, folder));
+                            {}, folder),
+               folded);
   page::write(std::move(page), folder);
 }
 

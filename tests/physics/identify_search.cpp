@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "base/doing.h"
 #include "base/error.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
@@ -33,6 +34,17 @@ bool warns_of_the_model(const identify::Identification& found) {
   return std::any_of(found.warnings.begin(), found.warnings.end(), [](const std::string& text) {
     return text.starts_with("neighbouring residuals are correlated");
   });
+}
+
+// The line of progress goes on within its parts.
+TEST(Identify, CountsTheCurvesThatItTook) {
+  const IdentifyScene& scene = test::identify_scene("layer");
+  const auto curve = test::noisy(test::clean_curve(scene), 0.01, 1);
+  (void)test::identified(scene, curve);
+  const Doing last = doing();  // the starts of the contact, the last part of three
+  EXPECT_EQ(last.all, 100U);
+  EXPECT_GT(last.done, 67U) << "the part begins with 66";
+  EXPECT_NE(last.text.find(" curves"), std::string::npos) << last.text;
 }
 
 // A half-space under a layer's curve: the base's stiffness is taken for the tissue's own.

@@ -302,7 +302,7 @@ TEST(DocsCheck, CatchesALinkThatLeadsNowhere) {
 TEST(DocsCheck, CatchesAResultWithoutAWord) {
   const std::string made_up =
       "table.columns = {\"case\",\n  \"force_N\"};\nadd(\"nodes\", 3.0);\n"
-      "record.findings.push_back({\"energy_imbalance\", 0.0});\nremark(\"deep\");\n";
+      "record.findings.push_back({\"energy_imbalance\", 0.0});\nwarning(\"deep\");\n";
   EXPECT_EQ(result_names(made_up),
             (std::set<std::string>{"case", "energy_imbalance", "force_N", "nodes"}));
   EXPECT_EQ(joined(unnamed(result_names(made_up), "`case`, `nodes`, force_N, `energy_imbalance`")),

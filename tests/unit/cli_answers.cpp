@@ -220,16 +220,17 @@ TEST_F(Quickstart, runs_without_a_warning_and_says_what_explain_said) {
   const Ended ended = palpate(folder_.path(), {"run", file_});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const std::vector<std::string> lines = split(trimmed(ended.err), '\n');
-  ASSERT_GE(lines.size(), 4U) << ended.err;
+  ASSERT_GE(lines.size(), 5U) << ended.err;
   EXPECT_EQ(lines[0], before[0]);
   EXPECT_TRUE(lines[1].starts_with("Peak force: ")) << lines[1];
   // The error is the one before the run: no mesh has been made that would know better.
   EXPECT_EQ(lines[1].substr(lines[1].find("an error")),
             before[1].substr(before[1].find("an error")));
   EXPECT_EQ(lines[2], before[2]);
+  EXPECT_TRUE(lines[3].starts_with("It took ")) << lines[3];
   EXPECT_EQ(lines.back(), "out/quickstart: 1 of 1 case");
   const bool page = fs::exists(folder_ / "out/quickstart/report.html");
-  EXPECT_EQ(lines.size(), page ? 5U : 4U) << ended.err;
+  EXPECT_EQ(lines.size(), page ? 6U : 5U) << ended.err;
   EXPECT_EQ(says(ended, "\nThe page to look at is out/quickstart/report.html.\n"), page);
 }
 
@@ -278,7 +279,7 @@ TEST_F(Quickstart, of_many_cases_is_summed_up) {
   EXPECT_TRUE(says(ended, "Peak force: ")) << ended.err;
   EXPECT_TRUE(says(ended, "and so in 8 more cases: Neglected: viscosity, which would add "))
       << ended.err;
-  EXPECT_LE(split(trimmed(ended.err), '\n').size(), 5U) << ended.err;
+  EXPECT_LE(split(trimmed(ended.err), '\n').size(), 6U) << ended.err;
 }
 
 // A bar whose width takes as much force as its thickness adds is not one whose size does not

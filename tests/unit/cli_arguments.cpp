@@ -119,8 +119,9 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "--surface, --max-force, --seconds, --clock"},
       {{"run", "a.toml", "--sett=x=1"}, "unknown option `--sett`; did you mean `--set`?"},
       {{"compare", "a", "b", "--jobs", "2"},
-       "unknown option `--jobs`; known: --help, --version, --quiet, --no-color, --json, --csv, "
-       "--tolerances, --report, --junit, --annotations"},
+       "`palpate compare` has no option `--jobs`, which belongs to `palpate run`, "
+       "`palpate sweep run`, `palpate sweep retry`, `palpate golden add`, `palpate golden check`; "
+       "`palpate compare --help` lists its own"},
       {{"compare", "a", "b", "--jsom"}, "unknown option `--jsom`; did you mean `--json`?"},
       {{"--force", "run", "a.toml"},
        "option `--force` stands before its verb; write it as `palpate run ... --force`"},
@@ -181,6 +182,12 @@ TEST(Arguments, HelpAndVersionAreAnswers) {
     if (verb.name == "help") continue;
     const std::string text = answer({verb.name, "--help"});
     EXPECT_NE(text.find("Example: palpate " + verb.name), std::string::npos) << verb.name;
+    for (const commands::Command& inner : verb.commands) {
+      const std::string words = verb.name + " " + inner.name;
+      EXPECT_NE(answer({verb.name, inner.name, "--help"}).find("Example: palpate " + words),
+                std::string::npos)
+          << words;
+    }
   }
   EXPECT_NE(answer({}).find("palpate run quickstart"), std::string::npos);
   EXPECT_NE(answer({"golden", "add", "-h"}).find("Usage: palpate golden add"), std::string::npos);

@@ -46,7 +46,7 @@ TEST_F(FitMany, OneRowPerCurveAndThePopulation) {
   EXPECT_NEAR(std::get<double>(at(4, "h_0_mm")), 0.3, 1e-6);  // likewise
   EXPECT_NEAR(std::get<double>(at(0, "F_0_N")), 0.1, 1e-9);   // likewise
   EXPECT_EQ(at(2, "status"), record::Cell("failed"));
-  EXPECT_EQ(at(2, "remarks"),
+  EXPECT_EQ(at(2, "warnings"),
             record::Cell("the model `hertz` needs at least 4 points, and 2 are usable; record more "
                          "points"));
   EXPECT_TRUE(says(ended, "4 of 5 curves are fitted")) << ended.err;

@@ -72,10 +72,13 @@ TEST_F(ReportPages, TheInspectorFindsFaults) {
       folder_ / "bad.html",
       "<!DOCTYPE html><html lang=en><body><h1 id=a>x</h1><main id=a style=\"color:#aaaaaa;"
       "background:#ffffff\">pale<a href=\"#b\">b</a><a href=c.csv>c</a><img src=d.png>"
-      "<div style=\"width:500px\">wide</div></main><script>nothing()</script></body></html>");
+      "<div style=\"width:500px\">wide</div><div class=wide style=\"width:20px;overflow:auto\">"
+      "abcdefghijkl</div><div class=plot><svg aria-label=x><path d=\"M0 0L9 9\" "
+      "stroke=\"#b4b4b4\"/></svg></div></main><script>nothing()</script></body></html>");
   const auto faults = faults_of_pages(folder_.path(), {"bad.html"}, Scheme::light);
-  for (const char* fault : {"CONSOLE", "id a twice", "no place #b", "c.csv", "loads d.png",
-                            "without words", "px wide", "contrast of 2.32"})
+  for (const char* fault :
+       {"CONSOLE", "id a twice", "no place #b", "c.csv", "loads d.png", "without words", "px wide",
+        "contrast of 2.32", "cut at 390", "with 2.07 to 1"})
     EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [&](const auto& one) {
       return one.find(fault) != std::string::npos;
     })) << fault;

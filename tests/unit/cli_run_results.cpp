@@ -72,6 +72,9 @@ TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
   const std::string headline = headline_of(result() / "report.html");
   EXPECT_NE(headline.find(" N "), std::string::npos) << headline;
   EXPECT_NE(headline.find("%"), std::string::npos) << headline;
+  const std::string page = read_file(result() / "report.html");
+  EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm."), std::string::npos);
+  EXPECT_NE(ended_.err.find("\nIt took "), std::string::npos) << ended_.err;
 }
 
 TEST_F(OfAPress, has_the_promised_columns) {  // DESIGN.md section 6

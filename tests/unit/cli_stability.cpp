@@ -38,8 +38,8 @@ TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
     EXPECT_EQ(ended.err.find("warning"), std::string::npos) << ended.err;
     EXPECT_EQ(SvgPicture(read_file(result / "stability.svg")).faults(), std::vector<std::string>{});
   }
-  EXPECT_TRUE(headline_of(result / "report.html")
-                  .ends_with(" µs longest stable step of central differences"))
+  EXPECT_TRUE(
+      headline_of(result / "report.html").ends_with(" µs longest safe step of central differences"))
       << headline_of(result / "report.html");
   EXPECT_EQ(faults_of_pages(result, {"report.html"}, Scheme::light), std::vector<std::string>{});
   const record::Table limits = record::read_csv(result / "stability.csv");

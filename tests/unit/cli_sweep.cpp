@@ -34,6 +34,8 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
       headline_of(folder_ / "out/s_sweep/merged/report.html").find("6 of 6 cases completed") !=
       std::string::npos)
       << headline_of(folder_ / "out/s_sweep/merged/report.html");
+  EXPECT_NE(read_file(folder_ / "out/s_sweep/merged/report.html").find("<p>Least in case "),
+            std::string::npos);
   const record::Table table =
       record::read_csv((folder_ / "out/s_sweep/merged/results.csv").string());
   EXPECT_EQ(table.rows.size(), 6U);

@@ -76,17 +76,17 @@ TEST(Bisection, HalvesEdgesInThreeTimesAndNothingElse) {
 
 TEST(Bisection, KeepsTheVolumeOfEveryRegion) {
   const geometry::Shape shape = geometry::Cuboid{Vec3(0.04, 0.04, 0.03)};
-  const std::vector<geometry::Lump> lumps{{Vec3(0.02, 0.02, 0.017), 0.006, 1}};
-  geometry::TetMesh mesh = tetgen_shape(shape, lumps, {.nodes = 300}, limit);
+  const std::vector<geometry::Inclusion> inclusions{{Vec3(0.02, 0.02, 0.017), 0.006, 1}};
+  geometry::TetMesh mesh = tetgen_shape(shape, inclusions, {.nodes = 300}, limit);
   const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(0.006, 3);
-  TrueBoundary boundary(mesh, shape, lumps, {});
+  TrueBoundary boundary(mesh, shape, inclusions, {});
   for (int round = 0; round < 2; ++round) {
     std::vector<char> marks;
     for (const int region : mesh.regions) marks.push_back(region == 1 ? 3 : 0);
     Bisection bisection(mesh, [&](const Bisection::Middle& edge) { return boundary.place(edge); });
     bisection.halve(marks);
     mesh = bisection.mesh();
-    boundary.restore_lumps(mesh);
+    boundary.restore_inclusions(mesh);
     check(mesh, "the refined mesh", 0.04 * 0.04 * 0.03);
     double inside = 0.0;
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)

@@ -1,4 +1,4 @@
-// Bodies in tetrahedra: near the target, every region where it belongs, lumps refused by name.
+// Bodies in tetrahedra: near the target, every region where it belongs, inclusions refused by name.
 #include "meshing/tetgen_body.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ const std::vector<geometry::Shape> shapes{geometry::Cuboid{},    geometry::Cylin
                                           geometry::BoneShaft{}, geometry::LayeredLimb{}};
 
 geometry::TetMesh shape_mesh(const geometry::Shape& shape, const Target& target,
-                             const std::vector<geometry::Lump>& lumps = {}) {
-  return tetgen_shape(shape, lumps, target, time_given);
+                             const std::vector<geometry::Inclusion>& inclusions = {}) {
+  return tetgen_shape(shape, inclusions, target, time_given);
 }
 
 std::map<int, double> volumes(const geometry::TetMesh& mesh) {
@@ -93,9 +93,9 @@ TEST(TetGenBody, an_edge_length_is_met_on_average) {
 }
 
 TEST(TetGenBody, the_same_question_has_the_same_answer) {
-  const std::vector<geometry::Lump> lump{{{0.03, 0.04, 0.03}, 0.01, 1}};
-  const geometry::TetMesh a = shape_mesh(geometry::Cylinder{}, {.nodes = 500}, lump);
-  const geometry::TetMesh b = shape_mesh(geometry::Cylinder{}, {.nodes = 500}, lump);
+  const std::vector<geometry::Inclusion> inclusion{{{0.03, 0.04, 0.03}, 0.01, 1}};
+  const geometry::TetMesh a = shape_mesh(geometry::Cylinder{}, {.nodes = 500}, inclusion);
+  const geometry::TetMesh b = shape_mesh(geometry::Cylinder{}, {.nodes = 500}, inclusion);
   EXPECT_EQ(a.nodes, b.nodes);
   EXPECT_EQ(a.tetrahedra, b.tetrahedra);
   EXPECT_EQ(a.regions, b.regions);
@@ -119,21 +119,21 @@ TEST(TetGenBody, a_limbs_regions_fill_what_their_surfaces_enclose) {
 }
 
 // Also where it takes the middle of the shape.
-TEST(TetGenBody, a_lump_has_its_own_region_in_every_shape) {
+TEST(TetGenBody, an_inclusion_has_its_own_region_in_every_shape) {
   for (const geometry::Shape& shape : shapes) {
     const Vec3 size = geometry::extent(shape);
     const bool limb = std::holds_alternative<geometry::LayeredLimb>(shape);
-    geometry::Lump lump{0.5 * size, 0.3 * size.minCoeff(), 7};
-    if (limb) lump = {{0.130, 0.175, 0.090}, 0.015, 7};  // in the muscle
-    const geometry::TetMesh mesh = shape_mesh(shape, {.nodes = 1200}, {lump});
+    geometry::Inclusion inclusion{0.5 * size, 0.3 * size.minCoeff(), 7};
+    if (limb) inclusion = {{0.130, 0.175, 0.090}, 0.015, 7};  // in the muscle
+    const geometry::TetMesh mesh = shape_mesh(shape, {.nodes = 1200}, {inclusion});
     const auto sums = volumes(mesh);
     ASSERT_EQ(sums.size(), limb ? 4u : 2u);
-    const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(lump.radius, 3);
+    const double ball = 4.0 / 3.0 * std::numbers::pi * std::pow(inclusion.radius, 3);
     EXPECT_NEAR(sums.at(7) / ball, 1.0, 1e-6) << shape.index();
     for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
       for (const int node : mesh.tetrahedra[t]) {
-        const double from =
-            (mesh.nodes[static_cast<std::size_t>(node)] - lump.centre).norm() / lump.radius;
+        const double from = (mesh.nodes[static_cast<std::size_t>(node)] - inclusion.centre).norm() /
+                            inclusion.radius;
         if (mesh.region(static_cast<int>(t)) == 7) {
           EXPECT_LT(from, 1.1);  // vertices lie outside so that the volume is the ball's
         }
@@ -141,7 +141,7 @@ TEST(TetGenBody, a_lump_has_its_own_region_in_every_shape) {
   }
 }
 
-TEST(TetGenBody, lumps_may_lie_in_each_other) {
+TEST(TetGenBody, inclusions_may_lie_in_each_other) {
   const Vec3 middle(0.03, 0.04, 0.03);
   const geometry::TetMesh mesh =
       shape_mesh(geometry::Cylinder{}, {.nodes = 1500}, {{middle, 0.018, 4}, {middle, 0.009, 2}});
@@ -150,9 +150,10 @@ TEST(TetGenBody, lumps_may_lie_in_each_other) {
   EXPECT_NEAR(sums.at(2) / sums.at(4), 1.0 / 7.0, 1e-6);
 }
 
-TEST(TetGenBody, refuses_lumps_that_are_not_wholly_inside) {
-  const auto refusal = [](const geometry::Shape& shape, const std::vector<geometry::Lump>& lumps) {
-    return mesh_complaint([&] { (void)shape_mesh(shape, {.nodes = 800}, lumps); });
+TEST(TetGenBody, refuses_inclusions_that_are_not_wholly_inside) {
+  const auto refusal = [](const geometry::Shape& shape,
+                          const std::vector<geometry::Inclusion>& inclusions) {
+    return mesh_complaint([&] { (void)shape_mesh(shape, {.nodes = 800}, inclusions); });
   };
   EXPECT_EQ(
       refusal(geometry::Cylinder{}, {{{0.03, 0.04, 0.05}, 0.012, 1}}),

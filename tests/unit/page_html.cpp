@@ -34,7 +34,8 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
   const std::string html =
       table("Forces", {{"case", "force"}, {{record::Cell("a"), 1.23456789}, {"b", {}}}}).html();
   for (const char* part :
-       {"<caption>Forces</caption>", "<th scope=\"col\">force</th>", "<th scope=\"row\">a</th>",
+       {"<caption>Forces</caption>", "<th scope=\"col\" class=\"number\">force</th>",
+        "<th scope=\"col\">case</th>", "<th scope=\"row\">a</th>",
         "<td data-column=\"force\" class=\"number\">1.235</td>",
         "<td data-column=\"force\">–</td>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;

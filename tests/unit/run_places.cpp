@@ -21,7 +21,7 @@
 namespace palpate::scene {
 namespace {
 
-const std::string kLump =
+const std::string kInclusion =
     "[tissue]\nyoung_modulus = \"10 kPa\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n"
     "[[region]]\nkind = \"sphere\"\nradius = \"5 mm\"\n";
 
@@ -48,13 +48,13 @@ TEST(Places, the_part_of_a_ball_in_a_half_space_is_that_of_its_cap) {
   }
 }
 
-TEST(Places, a_lump_outside_is_refused_with_both_boxes) {
+TEST(Places, an_inclusion_outside_is_refused_with_both_boxes) {
   EXPECT_EQ(
-      refusal_of(kLump + "centre = [\"70 mm\", \"30 mm\", \"15 mm\"]\n"),
+      refusal_of(kInclusion + "centre = [\"70 mm\", \"30 mm\", \"15 mm\"]\n"),
       "press.toml:9:10: `[[region]]` 1 lies outside the body: it has x 65 to 75, y 25 to 35, z "
       "10 to 20 mm, the body x 0 to 60, y 0 to 60, z 0 to 30 mm, from the lowest corner of its "
       "box; change `centre` or `radius`");
-  EXPECT_TRUE(refusal_of(kLump + "centre = [\"30 mm\", \"30 mm\", \"27 mm\"]\n")
+  EXPECT_TRUE(refusal_of(kInclusion + "centre = [\"30 mm\", \"30 mm\", \"27 mm\"]\n")
                   .starts_with("press.toml:9:10: only "));
 }
 
@@ -138,10 +138,10 @@ TEST_F(PlacedBody, a_place_is_taken_to_the_surface_and_pressed_along_its_normal)
              "[finger]\nat = [\"5 mm\", \"50 mm\", \"3 mm\"]\n[[region]]\n"
              "kind = \"sphere\"\nradius = \"2 mm\"\ncentre = [\"5 mm\", \"10 mm\", \"3 mm\"]\n");
   EXPECT_NEAR((side.tissue.turn * Vec3::UnitY() - Vec3::UnitZ()).norm(), 0.0, 1e-9);  // rounding
-  const auto& lump = std::get<scenario::Lump>(side.regions.front().part);
-  EXPECT_NEAR(lump.centre[0], *side.finger.x, 1e-9);  // the lump lies below the finger
-  EXPECT_NEAR(lump.centre[1], *side.finger.y, 1e-9);
-  EXPECT_NEAR(lump.centre[2], 0.010, 1e-9);
+  const auto& inclusion = std::get<scenario::Inclusion>(side.regions.front().part);
+  EXPECT_NEAR(inclusion.centre[0], *side.finger.x, 1e-9);  // the inclusion lies below the finger
+  EXPECT_NEAR(inclusion.centre[1], *side.finger.y, 1e-9);
+  EXPECT_NEAR(inclusion.centre[2], 0.010, 1e-9);
 }
 
 // A box of 60 x 60 x 40 mm with a cavity of 20 x 20 x 10 mm, 5 mm below its top.

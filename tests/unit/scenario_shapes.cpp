@@ -187,9 +187,9 @@ TEST(Regions, TakeTheirSubstanceFromMaterialsUnlessTheySay) {
       "mm\"\nmaterial = \"bone\"\nyoung_modulus = \"5 kPa\"\n"
       "[[region]]\ntag = 7\nkind = \"tagged\"\ndensity = \"900 kg/m^3\"\n");
   ASSERT_EQ(scenario.regions.size(), 2U);
-  const auto& lump = std::get<Lump>(scenario.regions[0].part);
-  EXPECT_EQ(lump.centre, (std::array<double, 3>{0.01, 0.02, -0.001}));
-  EXPECT_EQ(lump.radius, 0.003);
+  const auto& inclusion = std::get<Inclusion>(scenario.regions[0].part);
+  EXPECT_EQ(inclusion.centre, (std::array<double, 3>{0.01, 0.02, -0.001}));
+  EXPECT_EQ(inclusion.radius, 0.003);
   EXPECT_EQ(scenario.regions[0].young_modulus, 5000.0);
   const Scenario bone = read_one(press + "[tissue]\nmaterial = \"bone\"\n");
   EXPECT_EQ(scenario.regions[0].density, bone.tissue.density);
@@ -274,14 +274,14 @@ std::vector<std::string> case_names(const std::string& text) {
 using Names = std::vector<std::string>;
 
 TEST(Families, SweepRegionsShapesAndSpheres) {
-  const Family lumps = parse(
+  const Family inclusions = parse(
       press + "[tissue]\n" + tetgen +
           "[[region]]\nkind = \"sphere\"\n[sweep]\n\"region.1.young_modulus\" = [\"1 kPa\", \"9 "
           "kPa\"]\n",
       "press.toml", {});
-  ASSERT_EQ(lumps.cases.size(), 2U);
-  EXPECT_EQ(lumps.cases[1].scenario.regions[0].young_modulus, 9000.0);
-  EXPECT_EQ(echo(parse(echo(lumps), "press.toml", {})), echo(lumps));
+  ASSERT_EQ(inclusions.cases.size(), 2U);
+  EXPECT_EQ(inclusions.cases[1].scenario.regions[0].young_modulus, 9000.0);
+  EXPECT_EQ(echo(parse(echo(inclusions), "press.toml", {})), echo(inclusions));
 
   const Family curved = parse(press + shape("kind = \"half_space\"") +
                                   "[sweep]\n\"tissue.shape.curvature\" = [\"-5 1/m\", \"0 1/m\"]\n",

@@ -36,7 +36,7 @@ FingerOrder with_lump() {
   FingerOrder order = plain();
   order.body.tissues.push_back({200.49e3, 0.44});
   order.body.inclusions = {
-      {.region = 1, .lump = geometry::Lump{Vec3(0.0283, 0.022, 0.0161), 4.6e-3, 1}}};
+      {.region = 1, .sphere = geometry::Inclusion{Vec3(0.0283, 0.022, 0.0161), 4.6e-3, 1}}};
   return order;
 }
 

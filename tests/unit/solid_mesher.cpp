@@ -82,26 +82,26 @@ TEST(SurfaceNet, EndsWhereTheTrueSurfaceIsElsewhere) {
   EXPECT_THROW(fine.refine([](const Vec3&) { return 1e-3; }), MeshError);
 }
 
-// "Skin over fat with a lump": a later region replaces an earlier one, also where a slab
+// "Skin over fat with a sphere": a later region replaces an earlier one, also where a slab
 // cuts it.
 TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
-  const geometry::Lump lump{Vec3(0.022, 0.018, 0.010), 0.004, 0};
-  const Inclusion of_lump{.region = 2, .lump = lump};
+  const geometry::Inclusion inner{Vec3(0.022, 0.018, 0.010), 0.004, 0};
+  const Inclusion of_sphere{.region = 2, .sphere = inner};
   const Inclusion slab{.region = 1, .bottom = 0.0, .top = 0.011};
   MeshOrder order = box();
-  order.sizes.spots.push_back({lump.centre, lump.radius, 0.002});
+  order.sizes.spots.push_back({inner.centre, inner.radius, 0.002});
   order.mirrors = {{1, 0.018}};
   const double all = 0.040 * 0.018 * 0.020;
   const double low = 0.040 * 0.018 * 0.011;
-  const double sphere = 0.5 * ball * std::pow(lump.radius, 3);
-  order.inclusions = {slab, of_lump};
+  const double sphere = 0.5 * ball * std::pow(inner.radius, 3);
+  order.inclusions = {slab, of_sphere};
   std::map<int, double> found = volumes(mesh_for(order));
   EXPECT_NEAR(found[2], sphere, 0.01 * sphere);  // curved faces of 2 mm on a radius of 4 mm
   EXPECT_NEAR(found[0] + found[1] + found[2], all, 1e-9 * all);
   // What of the ball is above the slab: a cap of the height h = 3 mm.
   const double cap = 0.5 * 3.14159265358979 * 0.003 * 0.003 * (3.0 * 0.004 - 0.003) / 3.0;
   EXPECT_NEAR(found[0], all - low - cap, 0.002 * all);
-  order.inclusions = {of_lump, slab};
+  order.inclusions = {of_sphere, slab};
   found = volumes(mesh_for(order));
   EXPECT_NEAR(found[1], low, 1e-9 * low);
   EXPECT_NEAR(found[2], cap, 0.03 * cap);
@@ -202,7 +202,8 @@ TEST(SolidMesher, RefinesGivenTetrahedraWithTheirRegions) {
 
 TEST(SolidMesher, RefusesALumpThatSticksOut) {
   MeshOrder order = box();
-  order.inclusions = {{.region = 1, .lump = geometry::Lump{Vec3(0.020, 0.018, 0.018), 0.003, 0}}};
+  order.inclusions = {
+      {.region = 1, .sphere = geometry::Inclusion{Vec3(0.020, 0.018, 0.018), 0.003, 0}}};
   EXPECT_THROW((void)mesh_for(order), MeshError);
 }
 

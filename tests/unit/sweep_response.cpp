@@ -250,6 +250,8 @@ TEST(Response, AScriptIsTheSameTwice) {
             std::string::npos)
       << "the last curve has a contrast of 3 to white";
   EXPECT_NE(script.find("set xlabel 'tissue.young_modulus (kPa)'"), std::string::npos);
+  EXPECT_NE(script.find("$contours << EOD\nx0,y0,x1,y1\n"), std::string::npos)
+      << "gnuplot takes the first row for a head";
 }
 
 TEST(SweepLabels, NameOutputsAndFactorsWithTheirUnits) {

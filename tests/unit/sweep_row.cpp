@@ -90,7 +90,7 @@ TEST(SweepRow, one_with_cells_of_another_kind_is_none) {
     EXPECT_FALSE(row_of(with("attempt", attempt))) << attempt;
   for (const char* text : {"name,value\n1,2\n", "name\nx\n", "name,value\nx\n", ""})
     EXPECT_FALSE(row_of(with("values", std::string(text)))) << text;
-  EXPECT_FALSE(row_of(with("remarks", std::string("remark\n1\n"))));
+  EXPECT_FALSE(row_of(with("warnings", std::string("warning\n1\n"))));
   EXPECT_FALSE(row_of(with("curve", std::string("a,a\n1,2\n"))));
 }
 
