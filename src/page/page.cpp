@@ -67,7 +67,7 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
   .wide { overflow: visible; } .wide table { font-size: .78rem; } figure svg { max-height: 19cm; }
-  h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { break-before: avoid; }
+  h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { margin-top: .3rem; }
   tbody tr:first-child { break-before: avoid; } details:not([open]) { display: none; } }
 )css";
 }
