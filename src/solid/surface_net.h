@@ -72,6 +72,7 @@ class SurfaceNet {
   int split(const Edge& edge, const Vec3& at);
   void connect(int triangle);
   void disconnect(int triangle);
+  [[nodiscard]] geometry::Surface numbered(int number) const;
   void turn_edges();
   void smooth();
   void without_crossings(std::optional<int> whole, const std::function<void(SurfaceNet&)>& step);
