@@ -149,7 +149,7 @@ void SurfaceNet::cut(const Plane& plane) {
   planes_.push_back(plane);
   std::vector<std::pair<int, Vec3>> places;
   for (const auto& [v, move] : moves) {
-    if (move.from < 0) continue;
+    if (move.from < 0 || !movable_) continue;
     places.emplace_back(v,
                         placed(move.along, move.from == 0 ? move.share : 1.0 - move.share, &plane));
   }
@@ -197,13 +197,6 @@ void SurfaceNet::drop_below(const Plane& plane) {
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) connect(t);
 }
 
-geometry::Surface SurfaceNet::numbered(int number) const {
-  geometry::Surface surface{vertices_, {}};
-  for (std::size_t t = 0; t < triangles_.size(); ++t)
-    if (numbers_[t] == number) surface.triangles.push_back(triangles_[t]);
-  return surface;
-}
-
 // Repeats a step that adds no vertices, without those whose triangles cross after it.
 void SurfaceNet::without_crossings(std::optional<int> whole,
                                    const std::function<void(SurfaceNet&)>& step) {
@@ -214,7 +207,9 @@ void SurfaceNet::without_crossings(std::optional<int> whole,
     SurfaceNet changed = *this;
     changed.kept_ = kept;
     step(changed);
-    const geometry::Surface outer = changed.numbered(*whole);
+    geometry::Surface outer{changed.vertices_, {}};
+    for (std::size_t t = 0; t < changed.triangles_.size(); ++t)
+      if (changed.numbers_[t] == *whole) outer.triangles.push_back(changed.triangles_[t]);
     const auto crossing = meshing::cgal_library::self_intersections(outer);
     if (crossing.empty() || round + 1 == most_rounds) {
       *this = std::move(changed);
@@ -237,50 +232,46 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
       return excess != other.excess ? excess < other.excess : edge > other.edge;
     }
   };
-  const SurfaceNet given = whole ? *this : SurfaceNet({}, {}, {});
-  bool turning = true;
-  const auto split_long = [&] {
-    for (;;) {
-      std::priority_queue<Long> waiting;
-      const auto look = [&](const Edge& edge) {
-        const Vec3& a = vertices_[as_index(edge[0])];
-        const Vec3& b = vertices_[as_index(edge[1])];
-        const double excess = (a - b).norm() / size(0.5 * (a + b));
-        if (excess > longest) waiting.push({excess, edge});
-      };
-      for (const auto& [edge, around] : at_) look(edge);
-      if (waiting.empty()) break;
-      // Edges are turned after every halving of the longest ones.
-      const double until = std::max(longest, 0.5 * waiting.top().excess);
-      while (!waiting.empty() && waiting.top().excess > until) {
-        const Edge edge = waiting.top().edge;
-        waiting.pop();
-        if (!at_.contains(edge)) continue;
-        const Vec3& a = vertices_[as_index(edge[0])];
-        const Vec3& b = vertices_[as_index(edge[1])];
-        // Where the nearest place of the surface is on another wall, or near an end, the parts
-        // would not become shorter. (Half a circle has 0.71.)
-        constexpr double longest_part = 0.8;
-        Vec3 there = placed(edge, 0.5);
-        if (std::max((there - a).norm(), (there - b).norm()) > longest_part * (a - b).norm())
-          there = 0.5 * (a + b);
-        if (vertices_.size() > most_vertices)
-          throw MeshError(
-              "its surface would have more than 200 000 vertices, so small is the contact beside "
-              "the body; press deeper, with a larger finger, or a part of the body");
-        const int middle = split(edge, there);
-        std::set<Edge> near;
-        for (const int end : edge)
-          for (const int t : at_.at({end, middle}))
-            for (std::size_t side = 0; side < 3; ++side)
-              near.insert(edge_of(triangles_[as_index(t)], side));
-        for (const Edge& other : near) look(other);
-      }
-      if (turning) turn_edges();
+  if (movable_) without_crossings(whole, [](SurfaceNet& net) { net.turn_edges(); });
+  for (;;) {
+    std::priority_queue<Long> waiting;
+    const auto look = [&](const Edge& edge) {
+      const Vec3& a = vertices_[as_index(edge[0])];
+      const Vec3& b = vertices_[as_index(edge[1])];
+      const double excess = (a - b).norm() / size(0.5 * (a + b));
+      if (excess > longest) waiting.push({excess, edge});
+    };
+    for (const auto& [edge, around] : at_) look(edge);
+    if (waiting.empty()) break;
+    // Edges are turned after every halving of the longest ones.
+    const double until = std::max(longest, 0.5 * waiting.top().excess);
+    while (!waiting.empty() && waiting.top().excess > until) {
+      const Edge edge = waiting.top().edge;
+      waiting.pop();
+      if (!at_.contains(edge)) continue;
+      const Vec3& a = vertices_[as_index(edge[0])];
+      const Vec3& b = vertices_[as_index(edge[1])];
+      // Where the nearest place of the surface is on another wall, or near an end, the parts
+      // would not become shorter. (Half a circle has 0.71.)
+      constexpr double longest_part = 0.8;
+      Vec3 there = placed(edge, 0.5);
+      if (std::max((there - a).norm(), (there - b).norm()) > longest_part * (a - b).norm())
+        there = 0.5 * (a + b);
+      if (vertices_.size() > most_vertices)
+        throw MeshError(
+            "its surface would have more than 200 000 vertices, so small is the contact beside "
+            "the body; press deeper, with a larger finger, or a part of the body");
+      const int middle = split(edge, there);
+      std::set<Edge> near;
+      for (const int end : edge)
+        for (const int t : at_.at({end, middle}))
+          for (std::size_t side = 0; side < 3; ++side)
+            near.insert(edge_of(triangles_[as_index(t)], side));
+      for (const Edge& other : near) look(other);
     }
-  };
-  without_crossings(whole, [](SurfaceNet& net) { net.turn_edges(); });
-  split_long();
+    if (movable_) turn_edges();
+  }
+  if (!movable_) return;
   without_crossings(whole, [](SurfaceNet& net) {
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
@@ -288,12 +279,6 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
       net.turn_edges();
     }
   });
-  // Triangles that are split alone cross nowhere on a flat surface.
-  if (whole && !meshing::cgal_library::self_intersections(numbered(*whole)).empty()) {
-    *this = given;
-    turning = false;
-    split_long();
-  }
 }
 
 // Moves every vertex without a crease, and on no plane or inside one, to the mean of its
