@@ -159,10 +159,11 @@ class GmshReader {
     if (!lines_.next() || lines_.words()[0] != end)
       lines_.fail("`" + end + "` should stand here" + save_again);
   }
+  // Its end follows binary numbers on the same line in files of some programs.
   void skip(const std::string& section) {
     const std::string end = "$End" + section.substr(1);
     while (lines_.next())
-      if (lines_.words()[0] == end) return;
+      if (lines_.words()[0] == end || trimmed(lines_.text()).ends_with(end)) return;
     lines_.fail("section `" + section + "` has no `" + end + "`" + save_again);
   }
 

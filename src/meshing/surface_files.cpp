@@ -175,7 +175,9 @@ Polygons ascii_stl(TableLines lines) {
   std::size_t state = 0;
   bool open = false;  // between `solid` and `endsolid`
   while (lines.next()) {
-    const std::string keyword = lower_case(lines.words()[0]);
+    std::string keyword = lower_case(lines.words()[0]);
+    if (keyword == "end" && lines.words().size() > 1)  // some programs write `end solid`
+      keyword += lower_case(lines.words()[1]);
     if (state == 0 && keyword == (open ? "endsolid" : "solid")) {
       open = !open;
       continue;

@@ -102,9 +102,9 @@ bool SolidPress::simpler() {
                                     [&](double size) { return size < inclusion_size_; });
     return true;
   }
-  if (!scene_->solid->surface || surface_ == Surface::unchanged) return false;
+  if (!scene_->solid->surface || surface_ == Surface::split) return false;
   inclusion_size_ = 1.0;
-  surface_ = surface_ == Surface::smooth ? Surface::flat : Surface::unchanged;
+  surface_ = static_cast<Surface>(static_cast<int>(surface_) + 1);
   if (!flat_) flat_ = scene::flattened(*scene_->solid, *scene_);
   return true;
 }
@@ -117,7 +117,8 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   solid::BodyOrder& body = order.body;
   body.shape = given.shape;
   body.surface = given.surface.get();
-  body.coarser = surface_ != Surface::unchanged;
+  body.coarser = surface_ < Surface::unchanged;
+  body.movable = surface_ < Surface::split;
   body.mesh = given.mesh ? &*given.mesh : nullptr;
   body.region_of = [&scenario](int part) { return scene::substance_of(scenario, part); };
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {

@@ -45,12 +45,12 @@ class SolidPress {
 
  private:
   // The surface of a file as the mesh takes it.
-  enum class Surface { smooth, flat, unchanged };
+  enum class Surface { smooth, flat, unchanged, split };
   // Makes the presses, and again with simpler bodies where one cannot be meshed. Throws MeshError.
   void make();
   [[nodiscard]] std::unique_ptr<solid::FingerPress> made(std::size_t mesh);
   // Whether there is a simpler body, which is then taken: smaller inclusions, then flat triangles,
-  // then those of the file alone.
+  // then those of the file alone, then the same with edges that are only split.
   [[nodiscard]] bool simpler();
   [[nodiscard]] const scene::SolidBody& body() const { return flat_ ? *flat_ : *scene_->solid; }
   [[nodiscard]] solid::FingerOrder order(double per_radius) const;

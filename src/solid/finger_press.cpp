@@ -162,6 +162,7 @@ Body make_body(const BodyOrder& order) {
   MeshOrder wanted{.shape = order.shape,
                    .surface = order.surface,
                    .coarser = order.coarser,
+                   .movable = order.movable,
                    .mesh = order.mesh,
                    .region_of = order.region_of,
                    .inclusions = order.inclusions,

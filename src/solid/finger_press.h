@@ -21,6 +21,7 @@ struct BodyOrder {
   std::optional<geometry::Shape> shape = {};
   const geometry::SmoothSurface* surface = nullptr;
   bool coarser = true;  // as there
+  bool movable = true;  // as there
   const geometry::TetMesh* mesh = nullptr;
   std::function<int(int)> region_of = {};
   std::vector<Inclusion> inclusions = {};

@@ -35,6 +35,7 @@ class Mesher {
     SurfaceNet net(
         std::move(faces_), std::move(numbers_),
         [this](const Vec3& point, std::span<const int> numbers) { return onto(point, numbers); });
+    if (!order_.movable) net.only_split();
     for (const Plane& mirror : order_.mirrors) {
       net.cut(mirror);
       net.drop_below(mirror);

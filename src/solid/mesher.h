@@ -42,6 +42,7 @@ struct MeshOrder {
   std::optional<geometry::Shape> shape;
   const geometry::SmoothSurface* surface = nullptr;
   bool coarser = true;                      // whether that may get larger triangles far away
+  bool movable = true;                      // whether its edges may turn and its vertices move
   const geometry::TetMesh* mesh = nullptr;  // with its regions; is only refined
   // Regions of the shape's own parts, by their numbers there.
   std::function<int(int)> region_of = {};

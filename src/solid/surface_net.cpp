@@ -149,7 +149,7 @@ void SurfaceNet::cut(const Plane& plane) {
   planes_.push_back(plane);
   std::vector<std::pair<int, Vec3>> places;
   for (const auto& [v, move] : moves) {
-    if (move.from < 0) continue;
+    if (move.from < 0 || !movable_) continue;
     places.emplace_back(v,
                         placed(move.along, move.from == 0 ? move.share : 1.0 - move.share, &plane));
   }
@@ -232,7 +232,7 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
       return excess != other.excess ? excess < other.excess : edge > other.edge;
     }
   };
-  without_crossings(whole, [](SurfaceNet& net) { net.turn_edges(); });
+  if (movable_) without_crossings(whole, [](SurfaceNet& net) { net.turn_edges(); });
   for (;;) {
     std::priority_queue<Long> waiting;
     const auto look = [&](const Edge& edge) {
@@ -251,8 +251,8 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
       if (!at_.contains(edge)) continue;
       const Vec3& a = vertices_[as_index(edge[0])];
       const Vec3& b = vertices_[as_index(edge[1])];
-      // Where the nearest place of the surface is on another wall, or near an end, the parts would
-      // not become shorter. (Half a circle has 0.71.)
+      // Where the nearest place of the surface is on another wall, or near an end, the parts
+      // would not become shorter. (Half a circle has 0.71.)
       constexpr double longest_part = 0.8;
       Vec3 there = placed(edge, 0.5);
       if (std::max((there - a).norm(), (there - b).norm()) > longest_part * (a - b).norm())
@@ -269,8 +269,9 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
             near.insert(edge_of(triangles_[as_index(t)], side));
       for (const Edge& other : near) look(other);
     }
-    turn_edges();
+    if (movable_) turn_edges();
   }
+  if (!movable_) return;
   without_crossings(whole, [](SurfaceNet& net) {
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {

@@ -45,6 +45,9 @@ class SurfaceNet {
 
   SurfaceNet(geometry::Surface surface, std::vector<int> numbers, Onto onto);
 
+  // From now on edges are split only, so that flat triangles that do not cross never do.
+  void only_split() { movable_ = false; }
+
   // Makes edges along a plane: moves vertices that are near it, and splits edges that cross it.
   // Vertices on it then have its coordinate exactly, also after refine().
   void cut(const Plane& plane);
@@ -83,6 +86,7 @@ class SurfaceNet {
   std::map<Edge, std::vector<int>> at_;  // triangles at every edge
   std::vector<Plane> planes_;
   Onto onto_;
+  bool movable_ = true;
   std::vector<char> kept_;  // vertices that stay, with the edges of their triangles; or empty
 };
 

@@ -436,7 +436,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         paths = given or write_own(folder)
         ran = mended = 0
-        print('| file | outcome | force (N) | stated error | processor time (s) | memory (MB) |')
+        print('| file | outcome | force (mN) | stated error (%) | processor time (s) | memory (MB) |')
         print('|---|---|---|---|---|---|')
         for path in paths:
             name = os.path.basename(path)
@@ -461,7 +461,8 @@ def main():
             if code == 0:
                 ran += 1
                 row = findings_of(result)
-                force, error = row.get('peak_force_N', '')[:7], row.get('stated_error', '')[:6]
+                force = '%.4g' % (1e3 * float(row['peak_force_N']))
+                error = '%.1f' % (100 * float(row['stated_error'])) if row.get('stated_error') else ''
                 with open(os.path.join(result, 'asked', 'report.html')) as file:
                     was = 'was mended' in file.read()
                 mended += was

@@ -135,7 +135,8 @@ TEST_F(GmshFile, without_groups_there_are_no_regions) {
 
 TEST_F(GmshFile, other_sections_are_read_over) {
   const std::string more =
-      "$Comments\n$Nodes in here\n$EndComments\n$Periodic\n1\n0 1 2\n$EndPeriodic\n";
+      "$Comments\n$Nodes in here\n$EndComments\n$Periodic\n1\n0 1 2\n$EndPeriodic\n"
+      "$NodeData\nnumbers$EndNodeData\n";
   EXPECT_EQ(read(kHead2 + more + kNodes2 + kElements2 + more).tetrahedra.size(), 2u);
 }
 

@@ -252,6 +252,13 @@ TEST_F(SurfaceFiles, line_ends_of_other_systems_and_a_missing_last_one) {
   }
 }
 
+TEST_F(SurfaceFiles, end_solid_may_be_two_words) {
+  const geometry::Surface want = egg(4, 5);
+  std::string text = ascii_stl(want);
+  text.replace(text.find("endsolid"), 8, "end solid");
+  expect_same(read("a.stl", text), want, 1.0);
+}
+
 // ZBrush ends its files with a zero byte, and keeps colours in comments.
 TEST_F(SurfaceFiles, long_comments_and_zero_bytes_at_the_end_are_left_out) {
   const geometry::Surface want = egg(4, 5);

@@ -65,6 +65,16 @@ TEST(SurfaceNet, MovesNoVertexThroughAnotherSheet) {
   };
   EXPECT_GT(crossing(std::nullopt), 0u);  // or the test tests nothing
   EXPECT_EQ(crossing(2), 0u);
+  SurfaceNet split(sheets, std::vector<int>(sheets.triangles.size(), 2),
+                   [](const Vec3& point, std::span<const int>) { return point; });
+  split.only_split();
+  split.cut({0, 9.0});  // the peak at 10 would move to it
+  split.refine([](const Vec3&) { return 2.0; });
+  for (std::size_t v = 0; v < sheets.vertices.size(); ++v)
+    EXPECT_EQ(split.vertices()[v], sheets.vertices[v]);
+  EXPECT_GT(split.vertices().size(), 100u);
+  EXPECT_TRUE(
+      meshing::cgal_library::self_intersections({split.vertices(), split.triangles()}).empty());
 }
 
 // Every place between corners is nearest to a corner, as on a fold: halves are as long as the
