@@ -106,6 +106,23 @@ TEST(ChartReference, OfAFastPressHoldsWhatLargeStrainsLeaveOpen) {
   EXPECT_LT(last.error, 0.12 * last.force);
 }
 
+// A pillar that swings is pressed by `solid`, and what inertia adds is measured on coupled springs,
+// within a few hundredths of what CalculiX has (run_inertia.cpp).
+TEST(ChartReference, OfABodyThatSwingsIsTheSolidsForceAndWhatInertiaAdds) {
+  const Reference found = refer(
+      asked("[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\nrate = \"5 mm/s\"\n[tissue]\n"
+            "young_modulus = \"10 kPa\"\npoisson_ratio = 0.33\ndensity = \"1100 kg/m^3\"\n"
+            "viscosity = \"none\"\nshape = { kind = \"cuboid\", size = [\"20 mm\", \"20 mm\", "
+            "\"80 mm\"] }\n[finger]\nmaterial = \"rigid\"\nradius = \"6 mm\"\n[output]\n"
+            "interval = \"4 ms\"\n"),
+      0);
+  EXPECT_FALSE(found.moves);
+  EXPECT_NE(found.how.find("what inertia adds"), std::string::npos) << found.how;
+  const ReferenceRow& last = found.rows.back();
+  EXPECT_LT(last.error, 0.015 * last.force);
+  EXPECT_NEAR(1e3 * last.force, 8.55, 0.15);  // the static force of CalculiX, and a swing of 1 %
+}
+
 TEST(ChartReference, StoppedItSaysNothing) {
   const std::atomic<bool> stopped = true;
   const StopScope scope(stopped);
