@@ -122,18 +122,18 @@ class Findings {
           "set `finger.at` for another place");
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     const geometry::SmoothSurface* const outer_surface = scene_.outer_surface();
-    if (outer_surface == nullptr || scenario.uniform() || !touch.known() ||
-        !touch.size.allFinite() || !scenario.tissue.held_from_below())
+    if (outer_surface == nullptr || scenario.uniform() || !touch.known() || !touch.size.allFinite())
       return;
     // A load spreads by about 45 degrees.
     constexpr double least_under = 0.1;
-    const double height =
-        touch.position.z() - scene::base_level(scenario, outer_surface->surface());
+    const geometry::Surface& body = outer_surface->surface();
+    const double level = scenario.tissue.held_from_below() ? scene::base_level(scenario, body)
+                                                           : scene::box_of(body.vertices).low.z();
     const scene::BaseArea base =
-        scene::base_area(scenario, outer_surface->surface(), touch.position, height);
+        scene::base_area(scenario, body, touch.position, touch.position.z() - level);
     if (base.under_press < least_under)
       warning("only " + percent_text(base.under_press) +
-              " of the underside below the press is held: the body bends or turns there; see the "
+              " of the surface behind the press is held: the body bends or turns there; see the "
               "base in "
               "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is held "
               "elsewhere");

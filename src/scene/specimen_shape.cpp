@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/error.h"
@@ -296,7 +297,12 @@ std::optional<std::string> beyond_half_space(const scenario::Resolved& scenario,
   // Steeper, the second order of SurfaceTouch::pressed() is not enough.
   constexpr double steepest = 60.0;  // degrees
   if (!touch.known()) return touch.cannot;
-  if (!scenario.tissue.held_from_below()) return "the body is not held from below the finger";
+  if (!scenario.tissue.held_from_below())
+    return "the base is inclined to the press by " +
+           rounded_text(std::acos(std::clamp(scenario.tissue.base_up.z(), -1.0, 1.0)) * 180.0 /
+                            std::numbers::pi,
+                        2) +
+           " degrees";
   const auto* box = std::get_if<scenario::Cuboid>(&scenario.tissue.shape);
   if (box != nullptr && leaves(scenario, *box)) return "the finger leaves the top of the body";
   if (!touch.curved() && !touch.tilted()) return std::nullopt;

@@ -61,6 +61,19 @@ class RunBodies : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(RunBodies, a_side_press_without_a_base_behind_it_is_said_to_bend) {
+  (void)column(0.0);
+  const std::string shape = "shape = { kind = \"file\", file = \"column.off\", unit = \"mm\" }\n";
+  const std::string finger = "towards = \"-x\"\nat = [\"12 mm\", \"6 mm\", \"18 mm\"]\n";
+  const auto bends = [](const Ended& ended) {
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return ended.err.find("of the surface behind the press is held: the body bends") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(bends(run(shape, finger, "", "0.5 mm")));
+  EXPECT_FALSE(bends(run("base_side = \"-x\"\n" + shape, finger, "", "0.5 mm")));
+}
+
 // A dome of 1 mm on a rim, without elements as wide as eight walls, and its error from two meshes.
 TEST_F(RunBodies, a_thin_wall_is_pressed_on_two_meshes) {
   Profile profile;
