@@ -9,6 +9,7 @@
 #include "base/doing.h"
 #include "base/error.h"
 #include "base/stop_scope.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "chart/journal.h"
 #include "integrate/modal.h"
@@ -21,10 +22,6 @@ namespace palpate::chart {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double end_time(const record::CaseRecord& record) {
   if (!record.contact.empty()) return record.contact.back().time;
@@ -82,12 +79,12 @@ class Measurer {
 
   std::vector<CaseChart> all() {
     for (std::size_t i = 0; i < asked_.family.cases.size(); ++i) begin(i);
-    start_ = Clock::now();
+    start_ = {};
     for (int round = 0; round < options_.repeats; ++round) {
-      if (round == 1) first_end_ = Clock::now();
+      if (round == 1) first_end_ = {};
       for (CaseChart& chart : charts_)
         for (Measurement& one : chart.rows) {
-          if (round > 0 && since(first_end_) > options_.again) return charts_;
+          if (round > 0 && first_end_.seconds() > options_.again) return charts_;
           visit(chart, one, round);
         }
     }
@@ -124,7 +121,7 @@ class Measurer {
     StopScope::end_if_stopped();
     ChartProgress progress{(charts_.size() > 1 ? chart.name + ": " : "") + one.variant.name, done_,
                            all_};
-    if (made_ > 0 && since(start_) > 1.0) progress.left = left(round);
+    if (made_ > 0 && start_.seconds() > 1.0) progress.left = left(round);
     ++done_;
     if (!wanted(one, round)) return;
     told_(progress);
@@ -136,8 +133,8 @@ class Measurer {
 
   // s, estimated from the timings made; the rounds after the first take up to `again`.
   [[nodiscard]] double left(int round) const {
-    const double each = since(start_) / made_;
-    if (round > 0) return std::min(each * (all_ - done_), options_.again - since(first_end_));
+    const double each = start_.seconds() / made_;
+    if (round > 0) return std::min(each * (all_ - done_), options_.again - first_end_.seconds());
     const int first = all_ / options_.repeats;
     return each * (first - done_) + std::min(each * (all_ - first), options_.again);
   }
@@ -205,7 +202,7 @@ class Measurer {
   std::optional<scene::Scene> build(const scenario::Family& family, Timing& timing,
                                     Measurement& one) {
     const scenario::Case& asked = family.cases.front();
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     scene::Choice choice = run::choose(asked);
     const double setup = choice.taken() != nullptr ? choice.taken()->seconds : 0.0;
     if (setup > longest_) {
@@ -215,12 +212,12 @@ class Measurer {
     if (!choice.chosen.meshed()) {
       scene::SpecimenShapes none;
       scene::Scene scene = run::build_scene(asked, family, none, std::move(choice));
-      timing.build = since(start);
+      timing.build = watch.seconds();
       return scene;
     }
     const double made = shapes_.seconds();
     scene::Scene scene = run::build_scene(asked, family, shapes_, std::move(choice));
-    timing.build = since(start) - (shapes_.seconds() - made) + shapes_.seconds(scene.scenario);
+    timing.build = watch.seconds() - (shapes_.seconds() - made) + shapes_.seconds(scene.scenario);
     return scene;
   }
 
@@ -296,7 +293,7 @@ class Measurer {
   scene::SpecimenShapes shapes_;                  // meshes of all variants
   integrate::KnownModes known_modes_;             // of the last body
   std::map<std::string, double> seconds_a_step_;  // by all choices but the time step
-  Clock::time_point start_, first_end_;           // of all rounds; of the first one
+  Stopwatch start_, first_end_;                   // of all rounds; of the first one
   int done_ = 0, all_ = 0, made_ = 0;
 };
 

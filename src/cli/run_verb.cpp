@@ -1,7 +1,6 @@
 // `palpate run`: runs scenarios one after the other, and the cases of each in parallel.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -13,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/stop_scope.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -52,11 +52,6 @@ struct Prepared {
   double seconds = 0.0;  // that the scenes took
 };
 
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 // `It took 4.6 s: model and mesh 1.2 s, steps 3 s, figures and files 0.4 s.`
 std::string time_sentence(double scenes, double steps, double files) {
   const auto text = [](double seconds) {
@@ -75,9 +70,9 @@ Prepared prepare(const scenario::Family& family, const Run& command, const Talk&
   prepared.folder = std::make_unique<report::ResultFolder>(
       command.out, family, command.force ? Replace::any : Replace::incomplete,
       report::origin_of(family));
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   prepared.scenes = run::build_all(family, prepared.workers);
-  prepared.seconds = since(start);
+  prepared.seconds = watch.seconds();
   return prepared;
 }
 
@@ -132,9 +127,9 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
     ++done;
     talk.event("case", details_of(family.name, record));
   };
-  const Clock::time_point start = Clock::now();
+  const Stopwatch running;
   const std::vector<record::CaseRecord> records = run::run_all(scenes, prepared.workers, finished);
-  const double steps = since(start);
+  const double steps = running.seconds();
   ticker.reset();
   if (StopScope::stopped() && records.empty()) return {};
 
@@ -151,9 +146,9 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   for (std::vector<fit::NamedFit>& one : fits_of)
     fits.insert(fits.end(), std::make_move_iterator(one.begin()),
                 std::make_move_iterator(one.end()));
-  const Clock::time_point filing = Clock::now();
+  const Stopwatch filing;
   ran.missing = warn_all(folder.finish(records, fits, {arguments.given, started}), talk);
-  const double files = since(filing);
+  const double files = filing.seconds();
   for (const std::string& line : report::answer_lines(records)) talk.say(line);
   talk.say(time_sentence(prepared.seconds, steps, files));
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))

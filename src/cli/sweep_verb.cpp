@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/index.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
@@ -30,7 +31,6 @@
 #include "sweep/response.h"
 #include "sweep/run.h"
 #include "sweep/slurm.h"
-#include "sweep/stopwatch.h"
 
 namespace palpate::cli {
 namespace {
@@ -370,7 +370,7 @@ int sweep_run(const Sweep& command, const Talk& talk) {
                             {"failed", now.failed},
                             {"seconds", rounded(seconds)}});
   };
-  const sweep::Clock::time_point start = sweep::Clock::now();
+  const Stopwatch watch;
   sweep::SweepEnd end;
   try {
     const ProgressLine line(
@@ -388,7 +388,7 @@ int sweep_run(const Sweep& command, const Talk& talk) {
     Talk::error(held.what());
     return exit_held;
   }
-  event(sweep::seconds_since(start));
+  event(watch.seconds());
   if (!std::filesystem::exists(command.subject + "/plan.json"))
     throw SystemError(command.subject +
                       " has vanished while its cases ran, and their rows with it; plan anew");

@@ -2,7 +2,6 @@
 #include "integrate/modal.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -11,6 +10,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "base/stopwatch.h"
 #include "integrate/wide_loops.h"
 #include "tissue/supports.h"
 
@@ -151,10 +151,10 @@ void Modal::find_all(KnownModes* known) {
   KnownModes own;
   KnownModes& all = known != nullptr ? *known : own;
   if (all.matrix.rows() != size || all.matrix != scaled) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     decompose(scaled, all);
     all.matrix = std::move(scaled);
-    all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    all.seconds = watch.seconds();
   } else {
     all.saved += all.seconds;
   }

@@ -1,8 +1,7 @@
 // Follows the finger along straight lines between readings.
 #include "live/model.h"
 
-#include <chrono>
-
+#include "base/stopwatch.h"
 #include "mechanics/half_space_contact.h"
 #include "run/bench.h"
 #include "scene/first_touch.h"
@@ -89,15 +88,14 @@ std::optional<double> LiveModel::imbalance() {
 }
 
 FrameCost predict_cost(const scene::Scene& scene, LiveModel& model, double frame, int frames) {
-  using Clock = std::chrono::steady_clock;
   const double deepest = scene::deepest_travel(scene.scenario, scene.law());
   std::vector<double> times;
   FrameCost cost;
   const int all = 2 * frames;
   for (int i = 0; i <= all && !cost.wrong; ++i) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     cost.wrong = model.follow(Vec3(0.0, 0.0, -deepest * i / all), frame * i);
-    if (i > frames) times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    if (i > frames) times.push_back(watch.seconds());
   }
   cost.force = model.touch().force();
   if (times.empty()) return cost;

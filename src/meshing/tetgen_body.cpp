@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -15,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/numerics.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "geometry/cuboid.h"
@@ -56,7 +56,7 @@ Triple cells_for(const Vec3& size, double spacing) {
 class GridSearch {
  public:
   GridSearch(const Vec3& size, int target, double time_limit)
-      : size_(size), target_(target), time_limit_(time_limit), start_(Clock::now()) {}
+      : size_(size), target_(target), time_limit_(time_limit) {}
 
   [[nodiscard]] double miss() const { return miss_; }
   [[nodiscard]] geometry::TetMesh& best() { return best_; }
@@ -80,11 +80,9 @@ class GridSearch {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   // The time limit decides only whether there is a result, not which.
   int attempt(const geometry::Surface& surface, double volume) {
-    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double spent = watch_.seconds();
     if (spent >= time_limit_)
       throw MeshError("no mesh with about " + std::to_string(target_) + " nodes was found within " +
                       rounded_text(time_limit_) + " s; ask for fewer nodes or allow more time");
@@ -102,7 +100,7 @@ class GridSearch {
   Vec3 size_;  // m
   int target_;
   double time_limit_;  // s
-  Clock::time_point start_;
+  Stopwatch watch_;
   double miss_ = HUGE_VAL;
   geometry::TetMesh best_;
 };
@@ -200,8 +198,7 @@ struct Miss {
 
 class Search {
  public:
-  Search(const Target& target, double time_limit)
-      : target_(target), time_limit_(time_limit), start_(Clock::now()) {
+  Search(const Target& target, double time_limit) : target_(target), time_limit_(time_limit) {
     assert(target.nodes > 0 || target.edge_length > 0.0);
   }
 
@@ -209,7 +206,7 @@ class Search {
   [[nodiscard]] geometry::TetMesh mesh(const geometry::Body& body, double largest,
                                        Triangles triangles = Triangles::kept) const {
     // The time limit decides only whether there is a result, not which.
-    const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double spent = watch_.seconds();
     if (spent >= time_limit_)
       throw MeshError("no mesh as fine as wanted was found within " + rounded_text(time_limit_) +
                       " s; ask for fewer nodes or allow more time");
@@ -295,7 +292,6 @@ class Search {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   struct Found {
     geometry::Body body;
     geometry::TetMesh mesh;
@@ -307,7 +303,7 @@ class Search {
 
   Target target_;
   double time_limit_;  // s
-  Clock::time_point start_;
+  Stopwatch watch_;
   double miss_ = HUGE_VAL;
   int fewest_ = std::numeric_limits<int>::max();
   Found best_;

@@ -20,6 +20,26 @@ void add_measured(const MeasuredRow& row, std::vector<Cell>& cells) {
 
 }  // namespace
 
+std::optional<double> number_of(const CaseRecord& record, std::string_view finding) {
+  for (const Finding& one : record.findings)
+    if (const auto* number = std::get_if<double>(&one.value);
+        number != nullptr && one.name == finding)
+      return *number;
+  return std::nullopt;
+}
+
+std::optional<Peak> peak_of(const CaseRecord& record) {
+  if (const auto force = number_of(record, "peak_force_N")) return Peak{"force", *force, " N"};
+  if (record.strain.empty()) return std::nullopt;
+  if (number_of(record, "elastic_strain")) {  // creep, which prescribes the stress
+    const auto strain = number_of(record, "peak_strain");
+    return strain ? std::optional(Peak{"strain", *strain, ""}) : std::nullopt;
+  }
+  double stress = 0.0;  // Pa
+  for (const StrainRow& row : record.strain) stress = std::max(stress, std::abs(row.stress));
+  return Peak{"stress", unit::kPa.from_si(stress), " kPa"};
+}
+
 Table contact_table(const std::vector<CaseRecord>& records) {
   Table table;
   table.columns = {"case",

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -136,6 +137,18 @@ struct CaseRecord {
     if (rows == 1) first_row = std::chrono::steady_clock::now();
   }
 };
+
+// The number of the finding with this name; nothing if there is none.
+[[nodiscard]] std::optional<double> number_of(const CaseRecord& record, std::string_view finding);
+
+// What a case was run for: the largest force, or without a finger the largest strain under a
+// prescribed stress, or the largest stress under a prescribed strain. Nothing without rows.
+struct Peak {
+  std::string of = {};  // `force`
+  double value = 0.0;
+  std::string unit = {};  // ` N`
+};
+[[nodiscard]] std::optional<Peak> peak_of(const CaseRecord& record);
 
 // The tables of the CSV files, with the columns and units of docs/results.md.
 [[nodiscard]] Table contact_table(const std::vector<CaseRecord>& records);

@@ -2,13 +2,11 @@
 #include "report/answer_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
 
 #include "base/text.h"
-#include "base/units.h"
 #include "report/run_page.h"
 
 namespace palpate::report {
@@ -28,11 +26,6 @@ struct Range {
   double low = 0.0;
   double high = 0.0;
 };
-
-std::optional<double> number(const record::CaseRecord& record, std::string_view name) {
-  const double value = finding_number(record, name);
-  return std::isnan(value) ? std::nullopt : std::optional(value);
-}
 
 // The range over all cases for which `value_of` has a value; nothing if there is none.
 template <class ValueOf>
@@ -75,10 +68,10 @@ std::string models(const std::vector<record::CaseRecord>& records) {
 std::string peaks(const std::vector<record::CaseRecord>& records) {
   std::string text = "Nothing was reached";
   if (const auto range = range_of(records, [](const auto& one) {
-        const std::optional<Peak> peak = peak_of(one);
+        const auto peak = record::peak_of(one);
         return peak ? std::optional(peak->value) : std::nullopt;
       })) {
-    const Peak peak = *peak_of(*range->most);
+    const record::Peak peak = *record::peak_of(*range->most);
     text = range_text("Peak " + peak.of, *range, peak.unit);
   }
   if (const auto error =
@@ -92,19 +85,6 @@ std::string peaks(const std::vector<record::CaseRecord>& records) {
 }
 
 }  // namespace
-
-std::optional<Peak> peak_of(const record::CaseRecord& record) {
-  if (const auto force = number(record, "peak_force_N")) return Peak{"force", *force, " N"};
-  if (record.strain.empty()) return std::nullopt;
-  if (number(record, "elastic_strain")) {  // creep, which prescribes the stress
-    const auto strain = number(record, "peak_strain");
-    return strain ? std::optional(Peak{"strain", *strain, ""}) : std::nullopt;
-  }
-  double stress = 0.0;  // Pa
-  for (const record::StrainRow& row : record.strain)
-    stress = std::max(stress, std::abs(row.stress));
-  return Peak{"stress", unit::kPa.from_si(stress), " kPa"};
-}
 
 std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
   struct Kind {

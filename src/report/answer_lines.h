@@ -9,15 +9,6 @@
 
 namespace palpate::report {
 
-// What a case was run for: the largest force, or without a finger the largest strain under a
-// prescribed stress, or the largest stress under a prescribed strain.
-struct Peak {
-  std::string of = {};  // `force`
-  double value = 0.0;
-  std::string unit = {};  // ` N`
-};
-[[nodiscard]] std::optional<Peak> peak_of(const record::CaseRecord& record);
-
 struct NamedSentence {
   std::string name;  // of a case
   std::string sentence;

@@ -149,10 +149,7 @@ std::string finding_text(const record::Finding& finding) {
 }
 
 double finding_number(const record::CaseRecord& record, std::string_view name) {
-  for (const record::Finding& finding : record.findings)
-    if (finding.name == name)
-      if (const auto* number = std::get_if<double>(&finding.value)) return *number;
-  return std::numeric_limits<double>::quiet_NaN();
+  return record::number_of(record, name).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::string finding_word(const record::CaseRecord& record, std::string_view name) {
@@ -495,7 +492,7 @@ std::string neglected(const record::Answer& answer) {
 
 // `1.17 N`
 std::string peak_text(const record::CaseRecord& record) {
-  const std::optional<Peak> peak = peak_of(record);
+  const auto peak = record::peak_of(record);
   return peak ? rounded_text(peak->value, 3) + peak->unit : "no result";
 }
 
@@ -507,7 +504,7 @@ std::string peak_error(const record::CaseRecord& record) {
 }
 
 record::Table case_table(const Records& records) {
-  const std::optional<Peak> peak = peak_of(records.front());
+  const auto peak = record::peak_of(records.front());
   record::Table table{{"case", peak ? "peak " + peak->of : "peak", "error", "model", "neglected"},
                       {}};
   for (const record::CaseRecord& record : records)
@@ -562,7 +559,7 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     const record::CaseRecord& record = records.front();
     const record::Answer& answer = record.answer;
     if (answer.neglected.empty()) return page.answer({answer.model, answer.error});  // no model ran
-    const std::optional<Peak> peak = peak_of(record);
+    const auto peak = record::peak_of(record);
     page.headline((peak ? "Peak " + peak->of + " " : "") + peak_text(record), peak_error(record));
     if (!record.reason.empty()) page.answer({early_end(record)});
     page.answer({tested(scenario::case_named(family, record.name), record),

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "base/units.h"
 #include "mechanics/pressed_mesh.h"
 #include "run/size_effect.h"
 #include "scenario/integrators.h"
@@ -172,33 +171,11 @@ class Words {
   const scene::Estimates& e_;
 };
 
-std::optional<double> number(const record::CaseRecord& record, const std::string& name) {
-  for (const record::Finding& finding : record.findings)
-    if (const double* value = std::get_if<double>(&finding.value);
-        value != nullptr && finding.name == name)
-      return *value;
-  return std::nullopt;
-}
-
 // What the error of a case is of, as the start of a sentence.
 std::string quantity(const scenario::Resolved& scenario) {
   if (!scenario.uniform()) return "The force";
   const bool creeps = std::holds_alternative<scenario::Creep>(scenario.steps.front());
   return creeps ? "The strain" : "The stress";
-}
-
-// The largest force, strain or stress of a case, as the start of a sentence.
-std::string peak(const scene::Scene& scene, const record::CaseRecord& record) {
-  if (const auto force = number(record, "peak_force_N"))
-    return "Peak force: " + rounded_text(*force, 3) + " N";
-  if (quantity(scene.scenario) == "The strain")
-    if (const auto strain = number(record, "peak_strain"))
-      return "Peak strain: " + rounded_text(*strain, 3);
-  if (record.strain.empty()) return "Peak force: none";
-  double stress = 0.0;
-  for (const record::StrainRow& row : record.strain)
-    stress = std::max(stress, std::abs(row.stress));
-  return "Peak stress: " + rounded_text(unit::kPa.from_si(stress), 3) + " kPa";
 }
 
 }  // namespace
@@ -230,9 +207,11 @@ Expected expect(const scene::Scene& scene) {
 }
 
 record::Answer answer(const scene::Scene& scene, const record::CaseRecord& record) {
-  const std::optional<double> mesh_error = number(record, "mesh_error");
+  const std::optional<double> mesh_error = record::number_of(record, "mesh_error");
   const Words words(scene, mesh_error);
-  std::string result = peak(scene, record);
+  const auto peak = record::peak_of(record);
+  std::string result =
+      peak ? "Peak " + peak->of + ": " + rounded_text(peak->value, 3) + peak->unit : "No result";
   std::optional<double> error;
   if (record.outcome == record::Outcome::completed) error = stated_error(scene, mesh_error);
   const std::vector<Neglected> effects = neglected(scene);

@@ -2,9 +2,9 @@
 #include "run/bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "mechanics/pressed_mesh.h"
 #include "scene/first_touch.h"
 
@@ -15,10 +15,9 @@ constexpr int warm_up = 50;  // frames before the counted ones, to fill caches
 
 template <class Work>
 double seconds(const Work& work) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   work();
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return watch.seconds();
 }
 
 // Times the stages separately.

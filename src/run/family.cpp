@@ -1,10 +1,10 @@
 // Runs the cases of a family: workers take the next task from a counter.
 #include "run/family.h"
 
-#include <chrono>
 #include <optional>
 
 #include "base/stop_scope.h"
+#include "base/stopwatch.h"
 #include "run/choose.h"
 #include "run/findings.h"
 #include "run/pace.h"
@@ -63,7 +63,7 @@ void run_programme(const scene::Scene& scene, record::CaseRecord& record) {
 }
 
 record::CaseRecord run_case(const scene::Scene& scene) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   record::CaseRecord record = begin_case(scene);
   run_programme(scene, record);
   try {
@@ -71,7 +71,7 @@ record::CaseRecord run_case(const scene::Scene& scene) {
   } catch (const Stopped& stopped) {
     (void)end_early(record, record::Outcome::interrupted, stopped.what());
   }
-  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.seconds = watch.seconds();
   return record;
 }
 

@@ -54,39 +54,54 @@ struct Nodes {
   }
 };
 
-// Calls take(column, row, weights) for every sample of the map that lies in the triangle.
-template <class Take>
-void raster(const std::array<Vec3, 3>& corners, const record::PressureMap& map, Take take) {
-  const double step = map.pitch / samples;
-  const double left = map.origin.x() - 0.5 * map.pitch + 0.5 * step;  // the first sample
-  const double bottom = map.origin.y() - 0.5 * map.pitch + 0.5 * step;
-  const auto first = [&](double low, double from) {
-    return std::max(0, static_cast<int>(std::ceil((low - from) / step - 1e-9)));
-  };
-  const auto last = [&](double high, double from, int count) {
-    return std::min(count * samples - 1, static_cast<int>(std::floor((high - from) / step + 1e-9)));
-  };
-  const auto [x_low, x_high] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
-  const auto [y_low, y_high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
-  const Vec3 b = corners[1] - corners[0];
-  const Vec3 c = corners[2] - corners[0];
-  const double twice = b.x() * c.y() - b.y() * c.x();
-  for (int j = first(y_low, bottom); j <= last(y_high, bottom, map.height); ++j)
-    for (int i = first(x_low, left); i <= last(x_high, left, map.width); ++i) {
-      const double x = left + i * step - corners[0].x();
-      const double y = bottom + j * step - corners[0].y();
-      const double in_b = (x * c.y() - y * c.x()) / twice;
-      const double in_c = (b.x() * y - b.y() * x) / twice;
-      if (std::min({in_b, in_c, 1.0 - in_b - in_c}) >= -1e-9)
-        take(i, j, std::array<double, 3>{1.0 - in_b - in_c, in_b, in_c});
-    }
-}
+// The samples of a map, each of which belongs to the triangle that takes it first.
+class Samples {
+ public:
+  explicit Samples(const record::PressureMap& map)
+      : map_(map), taken_(as_index(map.width * map.height * samples * samples), 0) {}
+
+  // Calls take(pixel, weights) for every free sample that lies in the triangle, seen from above.
+  template <class Take>
+  void draw(const std::array<Vec3, 3>& corners, Take take) {
+    const double step = map_.pitch / samples;
+    const double left = map_.origin.x() - 0.5 * map_.pitch + 0.5 * step;  // the first sample
+    const double bottom = map_.origin.y() - 0.5 * map_.pitch + 0.5 * step;
+    const auto first = [&](double low, double from) {
+      return std::max(0, static_cast<int>(std::ceil((low - from) / step - 1e-9)));
+    };
+    const auto last = [&](double high, double from, int count) {
+      return std::min(count * samples - 1,
+                      static_cast<int>(std::floor((high - from) / step + 1e-9)));
+    };
+    const auto [x_low, x_high] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
+    const auto [y_low, y_high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
+    const Vec3 b = corners[1] - corners[0];
+    const Vec3 c = corners[2] - corners[0];
+    const double twice = b.x() * c.y() - b.y() * c.x();
+    for (int j = first(y_low, bottom); j <= last(y_high, bottom, map_.height); ++j)
+      for (int i = first(x_low, left); i <= last(x_high, left, map_.width); ++i) {
+        const double x = left + i * step - corners[0].x();
+        const double y = bottom + j * step - corners[0].y();
+        const double in_b = (x * c.y() - y * c.x()) / twice;
+        const double in_c = (b.x() * y - b.y() * x) / twice;
+        if (std::min({in_b, in_c, 1.0 - in_b - in_c}) < -1e-9) continue;
+        char& taken = taken_[as_index(j * map_.width * samples + i)];
+        if (taken != 0) continue;
+        taken = 1;
+        take(as_index(j / samples * map_.width + i / samples),
+             std::array<double, 3>{1.0 - in_b - in_c, in_b, in_c});
+      }
+  }
+
+ private:
+  const record::PressureMap& map_;
+  std::vector<char> taken_;
+};
 
 void draw(const geometry::Surface& outer_surface, const mechanics::SphereContact& contact,
           record::PressureMap& map) {
   const Nodes nodes(outer_surface, contact);
-  const int across = map.width * samples;
-  std::vector<char> taken(as_index(across * map.height * samples), 0);
+  Samples drawn(map);
   std::vector<Vec3> traction_sum(map.pressure.size(), Vec3::Zero());
   std::vector<double> pressure_sum(map.pressure.size(), 0.0);
   for (std::size_t t = 0; t < outer_surface.triangles.size(); ++t) {
@@ -105,11 +120,7 @@ void draw(const geometry::Surface& outer_surface, const mechanics::SphereContact
       widest = std::max(widest, gap[i]);
     }
     if (widest == outside) continue;
-    raster(corners, map, [&](int i, int j, const std::array<double, 3>& weights) {
-      char& mark = taken[as_index(j * across + i)];
-      if (mark != 0) return;
-      mark = 1;
-      const auto pixel = as_index(j / samples * map.width + i / samples);
+    drawn.draw(corners, [&](std::size_t pixel, const std::array<double, 3>& weights) {
       float& least = map.gap[pixel];
       double here = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -350,8 +361,7 @@ record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surfa
   }
   lay_out(low, high, outer_surface.finger.front().pole.z(), map);
   const auto pixels = as_index(map.width * map.height);
-  const int across = map.width * samples;
-  std::vector<char> taken(as_index(across * map.height * samples), 0);
+  Samples drawn(map);
   std::vector<double> sums(pixels, 0.0);
   std::vector<Vec3> tractions(pixels, Vec3::Zero());
   map.gap.assign(pixels, std::numeric_limits<float>::infinity());
@@ -368,11 +378,7 @@ record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surfa
     const std::array<Vec3, 3> triangle{places[part[0]], places[part[1]], places[part[2]]};
     const Vec3 twice = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     if (twice.z() <= 0.0) return;
-    raster(triangle, map, [&](int i, int j, const std::array<double, 3>& weights) {
-      char& mark = taken[as_index(j * across + i)];
-      if (mark != 0) return;
-      mark = 1;
-      const auto pixel = as_index(j / samples * map.width + i / samples);
+    drawn.draw(triangle, [&](std::size_t pixel, const std::array<double, 3>& weights) {
       std::array<double, 3> at{};
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t c = 0; c < 3; ++c) at[c] += weights[k] * nodes[part[k]][c];

@@ -2,13 +2,13 @@
 #include "scene/specimen_shape.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "base/error.h"
 #include "base/field_writer.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "contact/hertz.h"
 #include "geometry/surface.h"
@@ -124,10 +124,9 @@ SpecimenShapes::Entry& SpecimenShapes::entry(const Scenario& scenario) {
 
 template <class Part, class Made>
 void SpecimenShapes::fill(Entry& entry, std::unique_ptr<Part>& part, const Made& made) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   part = std::make_unique<Part>(made());
-  const double spent =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double spent = watch.seconds();
   entry.seconds += spent;
   seconds_ += spent;
 }

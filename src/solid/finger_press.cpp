@@ -377,16 +377,19 @@ FingerPress::OuterSurface FingerPress::surface_at(double travel, const Vec3& pla
       std::array<Vec3, 6>& its_tractions = outer_surface.tractions.emplace_back();
       for (std::size_t i = 0; i < 6; ++i) {
         const std::size_t from = across[0] != across[1] ? turned_over[i] : i;
+        const int node = face.nodes[from];
         image[i] = places[from];
         its_lifts[i] = lifts[from];
-        for (const int axis : {0, 1})
-          if (across[as_index(axis)]) image[i][axis] = 2.0 * mirror_[axis] - image[i][axis];
-        its_tractions[i] = tractions[as_index(face.nodes[from])];
-        for (const int axis : {0, 1}) {
-          if (across[as_index(axis)]) its_tractions[i][axis] *= -1.0;
-          if (body.mirrored[as_index(axis)] &&
-              body.mesh.nodes[as_index(face.nodes[from])][axis] == mirror_[axis])
-            its_tractions[i][axis] = 0.0;  // by both sides of the mirror
+        its_tractions[i] = tractions[as_index(node)];
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const auto along = static_cast<Eigen::Index>(axis);
+          const double mirror = mirror_[along];
+          if (across[axis]) {
+            image[i][along] = 2.0 * mirror - image[i][along];
+            its_tractions[i][along] *= -1.0;
+          }
+          if (body.mirrored[axis] && body.mesh.nodes[as_index(node)][along] == mirror)
+            its_tractions[i][along] = 0.0;  // by both sides of the mirror
         }
       }
     }

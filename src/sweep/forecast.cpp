@@ -4,12 +4,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <set>
 
 #include "base/error.h"
 #include "base/stop_scope.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
@@ -19,7 +19,6 @@
 #include "scene/surface_displacement_store.h"
 #include "sweep/case_row.h"
 #include "sweep/plan.h"
-#include "sweep/stopwatch.h"
 
 namespace palpate::sweep {
 namespace {
@@ -71,39 +70,39 @@ class Trial {
 
   // How long cases take, with what earlier calls have left; nothing after `longest`.
   std::optional<double> run(std::size_t first, std::size_t count) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     std::vector<scene::Scene> scenes;
-    for (std::size_t i = first; i < first + count && seconds_since(start) < longest; ++i) {
+    for (std::size_t i = first; i < first + count && watch.seconds() < longest; ++i) {
       const scenario::Case one = scenario::make_case(family_, i);
       (void)case_id(one, files_);
       scenes.push_back(run::build_scene(one, family_, shapes_));
       scenes.back().scenario.output.keep_rows_only();
       scenes.back().surface_displacements = &surface_displacements_;
     }
-    const StopScope deadline(longest - seconds_since(start));
+    const StopScope deadline(longest - watch.seconds());
     for (const scene::Scene& scene : scenes) {
       const record::CaseRecord record = run::run_case(scene);
       if (record.outcome == record::Outcome::interrupted) return std::nullopt;
       (void)row_of(scene, record, keeps_curves_);
     }
-    return scenes.size() == count ? std::optional(seconds_since(start)) : std::nullopt;
+    return scenes.size() == count ? std::optional(watch.seconds()) : std::nullopt;
   }
 
   // From one case, which may end early.
   std::optional<double> alone(const scenario::Case& one) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     scene::Scene scene = run::build_scene(one, family_, shapes_);
-    const double set_up = std::max(seconds_since(start), shapes_.seconds(scene.scenario));
+    const double set_up = std::max(watch.seconds(), shapes_.seconds(scene.scenario));
     scene.scenario.output.keep_rows_only();
     const StopScope deadline(longest);
-    const Clock::time_point begun = Clock::now();
+    const Stopwatch running_watch;
     const record::CaseRecord record = run::run_case(scene);
     const double done = record.strain.empty()
                             ? record.contact.empty() ? 0.0 : record.contact.back().time
                             : record.strain.back().time;
     const double whole = scenario::programme_time(scene.scenario);
     if (!(done > 0.0) || !(whole > 0.0)) return std::nullopt;
-    const double running = seconds_since(begun) * std::max(1.0, whole / done);
+    const double running = running_watch.seconds() * std::max(1.0, whole / done);
     return set_up * set_ups(family_, true) + running * static_cast<double>(family_.design.count());
   }
 

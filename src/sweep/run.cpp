@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/stop_scope.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
@@ -20,7 +21,6 @@
 #include "scene/surface_displacement_store.h"
 #include "sweep/case_row.h"
 #include "sweep/journal.h"
-#include "sweep/stopwatch.h"
 
 namespace palpate::sweep {
 namespace {
@@ -171,10 +171,10 @@ class Runner {
     std::vector<Made*> part;
     for (Made& made : all)
       if (waits(made)) part.push_back(&made);
-    const Clock::time_point start = Clock::now();
+    const Stopwatch watch;
     run::share_out(part.size(), task_.workers, [&](std::size_t i) {
       Made& made = *part[i];
-      const bool late = i >= as_index(task_.workers) && seconds_since(start) > longest;
+      const bool late = i >= as_index(task_.workers) && watch.seconds() > longest;
       if (late || stop_.no_more()) return;
       made.tried = true;
       attempt(made, [&] {

@@ -94,6 +94,7 @@ TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
 }
 
 // A shell of revolution: a cap of 30 degrees, 0.7 mm thick and 40 mm in radius, on a thick ring.
+// Its vertices lie on the mirrors, as those of test::write_surface() do not.
 geometry::Surface cap_on_ring() {
   constexpr double half = 30.0 * std::numbers::pi / 180.0;
   constexpr int parts = 24;
@@ -133,24 +134,27 @@ geometry::Surface cap_on_ring() {
   return made;
 }
 
-// Between a quarter and half of a travel the cap buckles: no parabola through them and the deepest
-// point knows the force before. (That was 1.7 times too high at 0.7 mm.) Both presses have elements
-// of 1.5 mm.
-TEST(FingerPress, AWallThatBucklesIsPressedInSteps) {
-  const geometry::SmoothSurface shell(cap_on_ring());
+FingerOrder on_cap(const geometry::SmoothSurface& shell, double radius, double deepest,
+                   double per_radius) {
   FingerOrder order;
   order.body.surface = &shell;
   order.body.tissues = {{10e3, 0.4}};
   order.body.mirrored = {true, true};
   order.body.base_level = 40.35e-3 * std::cos(std::numbers::pi / 6.0) - 8e-3;
-  order.radius = 12e-3;
-  order.deepest = 11.5e-3;
-  order.body.per_radius = 8.0;
+  order.body.per_radius = per_radius;
+  order.radius = radius;
+  order.deepest = deepest;
   touch(order, shell.surface().vertices.front());
-  FingerPress deep(order);
-  order.deepest = 2.9e-3;
-  order.body.per_radius = 4.0;
-  FingerPress less(order);
+  return order;
+}
+
+// Between a quarter and half of a travel the cap buckles: no parabola through them and the deepest
+// point knows the force before. (That was 1.7 times too high at 0.7 mm.) Both presses have elements
+// of 1.5 mm.
+TEST(FingerPress, AWallThatBucklesIsPressedInSteps) {
+  const geometry::SmoothSurface shell(cap_on_ring());
+  FingerPress deep(on_cap(shell, 12e-3, 11.5e-3, 8.0));
+  FingerPress less(on_cap(shell, 12e-3, 2.9e-3, 4.0));
   for (const double travel : {0.75e-3, 1.5e-3, 2.9e-3}) {
     const auto one = deep.at_travel(travel);
     const auto other = less.at_travel(travel);
@@ -170,15 +174,7 @@ TEST(FingerPress, AWallThatBucklesIsPressedInSteps) {
 // Pressed by nearly its radius, a ball of 2 MPa on a soft wall still is a rigid one.
 TEST(FingerPress, AStiffBallYieldsNothingToASoftWall) {
   const geometry::SmoothSurface shell(cap_on_ring());
-  FingerOrder order;
-  order.body.surface = &shell;
-  order.body.tissues = {{10e3, 0.4}};
-  order.body.mirrored = {true, true};
-  order.body.base_level = 40.35e-3 * std::cos(std::numbers::pi / 6.0) - 8e-3;
-  order.radius = 6e-3;
-  order.deepest = 5.5e-3;
-  order.body.per_radius = 4.0;
-  touch(order, shell.surface().vertices.front());
+  FingerOrder order = on_cap(shell, 6e-3, 5.5e-3, 4.0);
   FingerPress rigid(order);
   order.ball = tissue::Isotropic{2050e3, 0.4995};
   order.share = 0.9957;
