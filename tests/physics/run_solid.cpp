@@ -190,6 +190,15 @@ rate = "1 mm/s"
         EXPECT_EQ(got, 0.0) << x;
       }
     }
+    // Along the sphere's normal, on all four copies of the quarter that is computed.
+    const auto in_row = [&](const std::vector<float>& values) {
+      return values[static_cast<std::size_t>(map.height / 2 * map.width + i)] / peak(0.8e-3);
+    };
+    const double slope = x * a / radius;
+    EXPECT_NEAR(in_row(map.traction_x), slope * in_row(map.pressure), 0.12 * a / radius) << x;
+    if (std::abs(x) < 0.02) {
+      EXPECT_NEAR(in_row(map.traction_x), slope, 0.001) << x;
+    }
   }
 }
 
