@@ -41,6 +41,21 @@ TEST(Pages, NameEveryVerbAndKey) {
   EXPECT_TRUE(emulator.out.starts_with(".TH \"palpate\\-emulator\" 1")) << emulator.err;
 }
 
+TEST(Pages, AnIndexSaysHowLongARunTook) {
+  const TemporaryFolder folder;
+  write_file(
+      folder / "out/a/report.html",
+      "<!doctype html>\n<title>a – palpate run</title>\n<div class=\"answer\"><p>One.</p></div>\n");
+  write_file(folder / "out/a/run.json",
+             R"({"finished": [{"timings_s": {"run": 1.25}}, {"timings_s": {"run": 1.25}}]})");
+  write_file(folder / "out/b/report.html", "<title>b – palpate sweep</title>\n");
+  const Ended opened = palpate(folder.path(), {"open", "out"});
+  ASSERT_EQ(opened.code, 0) << opened.err;
+  const std::string index = read_file(folder / "out/index.html");
+  EXPECT_NE(index.find(" It took 2.5 s."), std::string::npos) << index;
+  EXPECT_EQ(index.find("It took"), index.rfind("It took")) << "b has no times";
+}
+
 // A folder's name is no scheme: a page opens where the link of the index says. A link to itself, of
 // which nobody can say what it is, is no report.
 TEST(Pages, AnIndexHasLinksToFoldersOfAnyName) {
