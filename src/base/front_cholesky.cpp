@@ -217,9 +217,42 @@ void subtract(const Update& by) {
 }
 
 // column -= factor * before, from entry `begin` to `end`.
-PALPATE_WIDEST void subtract_column(double* column, const double* before, double factor, int begin,
+PALPATE_ALWAYS void subtract_scaled(double* column, const double* before, double factor, int begin,
                                     int end) {
   for (int r = begin; r < end; ++r) column[r] -= factor * before[r];
+}
+
+PALPATE_WIDEST void subtract_column(double* column, const double* before, double factor, int begin,
+                                    int end) {
+  subtract_scaled(column, before, factor, begin, end);
+}
+
+// The columns of a front and the rows below: x = L^-1 x, and what that takes from those rows.
+PALPATE_WIDEST void solve_down(const double* column, int width, int height, double* x) {
+  for (int c = 0; c < width; ++c, column += height) {
+    const double value = x[c] /= column[c];
+    subtract_scaled(x, column, value, c + 1, height);
+  }
+}
+
+// x = L^-T x for the columns of a front, from those rows. Sums are by eights on any processor.
+PALPATE_WIDEST void solve_up(const double* panel, int width, int height, double* x) {
+  for (int c = width - 1; c >= 0; --c) {
+    const double* column = panel + as_index(c) * as_index(height);
+    Eight sums = {};
+    int r = c + 1;
+    for (; r + 8 <= height; r += 8) {
+      Eight factors;
+      Eight values;
+      __builtin_memcpy(&factors, column + r, sizeof factors);
+      __builtin_memcpy(&values, x + r, sizeof values);
+      sums += factors * values;
+    }
+    double rest = 0.0;
+    for (; r < height; ++r) rest += column[r] * x[r];
+    for (int i = 0; i < 8; ++i) rest += sums[i];
+    x[c] = (x[c] - rest) / column[c];
+  }
 }
 
 }  // namespace
@@ -404,25 +437,24 @@ void FrontCholesky::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   const auto size = place_.size();
   x_.resize(size);
   for (std::size_t i = 0; i < size; ++i) x_[as_index(place_[i])] = b[static_cast<Eigen::Index>(i)];
-  for (const Front& front : fronts_) {
+  const auto gather = [&](const Front& front) {
     const int height = front.width + front.below;
-    const int* rows = &rows_[front.rows];
-    for (int c = 0; c < front.width; ++c) {
-      const double* column = &values_[front.values + as_index(c) * as_index(height)];
-      const double value = x_[as_index(front.first + c)] /= column[c];
-      for (int r = c + 1; r < height; ++r) x_[as_index(rows[r])] -= column[r] * value;
-    }
+    part_.resize(as_index(height));
+    for (int r = 0; r < height; ++r)
+      part_[as_index(r)] = x_[as_index(rows_[front.rows + as_index(r)])];
+    return height;
+  };
+  for (const Front& front : fronts_) {
+    const int height = gather(front);
+    solve_down(&values_[front.values], front.width, height, part_.data());
+    for (int r = 0; r < height; ++r)
+      x_[as_index(rows_[front.rows + as_index(r)])] = part_[as_index(r)];
   }
   for (std::size_t f = fronts_.size(); f-- > 0;) {
     const Front& front = fronts_[f];
-    const int height = front.width + front.below;
-    const int* rows = &rows_[front.rows];
-    for (int c = front.width - 1; c >= 0; --c) {
-      const double* column = &values_[front.values + as_index(c) * as_index(height)];
-      double value = x_[as_index(front.first + c)];
-      for (int r = c + 1; r < height; ++r) value -= column[r] * x_[as_index(rows[r])];
-      x_[as_index(front.first + c)] = value / column[c];
-    }
+    const int height = gather(front);
+    solve_up(&values_[front.values], front.width, height, part_.data());
+    std::copy(part_.begin(), part_.begin() + front.width, x_.begin() + front.first);
   }
   x.resize(static_cast<Eigen::Index>(size));
   for (std::size_t i = 0; i < size; ++i) x[static_cast<Eigen::Index>(i)] = x_[as_index(place_[i])];

@@ -50,7 +50,7 @@ class FrontCholesky {
   std::vector<double> values_;
   std::vector<int> diagonal_;    // index of each diagonal entry in the matrix, in elimination order
   std::vector<double> waiting_;  // what fronts leave to their parents
-  mutable std::vector<double> x_;
+  mutable std::vector<double> x_, part_;
 };
 
 }  // namespace palpate

@@ -453,6 +453,7 @@ bool FingerPress::reach(double travel) {
       in_steps_ = true;
       reason_.clear();
       tissue_ = {};
+      press_->solve_by_factors();
       press_->begin(order_.touch.finger);
       continue;
     }

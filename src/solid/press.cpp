@@ -293,6 +293,39 @@ bool Press::factor() {
   }
 }
 
+// Solves stiffness_ x = right: by conjugate gradients with the last factors as preconditioner while
+// these are near, else by new ones.                                                 decision 477
+bool Press::solve(const Vector& right, Vector& x) {
+  constexpr double tolerance = 0.05;  // a sixth is what Newton's next step leaves of this one
+  constexpr std::size_t enough = 12;  // iterations after which the factors are near no more
+  constexpr std::size_t most = 16;
+  if (near_) {
+    std::size_t iterations = 0;
+    double error = 0.0;
+    vectors_.right = right;
+    vectors_.x.setZero(right.size());
+    const bool solved = conjugate_gradients<1>(
+        vectors_, tolerance, most,
+        [&](const Vector& p, Vector& image) {
+          ++iterations;
+          image = stiffness_.selfadjointView<Eigen::Lower>() * p;
+        },
+        [&](const Vector& r, Vector& z) { factors_.solve(r, z); },
+        [](std::size_t, double, double next) { return next; }, error);
+    near_ = iterations <= enough;
+    if (solved) {
+      x = vectors_.x;
+      return true;
+    }
+  }
+  const int before = factorisations_;
+  if (!factor()) return false;
+  const bool alone = factorisations_ == before + 1;  // without a share of the linear stiffness
+  near_ = alone && !by_factors_;
+  factors_.solve(right, x);
+  return true;
+}
+
 // Of an indenter with its pole there, in the mirrors through the finger's point: 0 beyond one,
 // where it is the image of another.
 int Press::images_of(const Vec3& pole) const {
@@ -330,14 +363,14 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
   std::vector<Met> met;
   const std::vector<double> half = contact_.half_depths(indenters);
   const std::span<const double> none;
+  near_ = false;
   for (int i = 0; i < most_steps; ++i) {
     const double least = elements_.assemble(u, force, stiffness_);
     if (!(least > -1.0)) return std::nullopt;
     contact_.add(u, indenters, i == 0 ? std::span(half) : none, force, stiffness_, met);
     for (int d = 0; d < static_cast<int>(u.size()); ++d)
       if (const int unknown = elements_.unknown(d); unknown >= 0) right[unknown] = -force[d];
-    if (!factor()) return std::nullopt;
-    factors_.solve(right, solution);
+    if (!solve(right, solution)) return std::nullopt;
     const double most = solution.size() > 0 ? solution.cwiseAbs().maxCoeff() : 0.0;
     if (!std::isfinite(most)) return std::nullopt;
     const double share = std::min(1.0, longest * body_.size / most);

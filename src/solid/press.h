@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/front_cholesky.h"
+#include "base/symmetric_solver.h"
 #include "solid/elements.h"
 
 namespace palpate::solid {
@@ -141,6 +142,9 @@ class Press {
   void set_finger(std::vector<Indenter> indenters) { indenters_ = std::move(indenters); }
   // Puts the finger at a place (m) where it touches nothing, and the body at rest.
   void begin(const Vec3& finger);
+  // From now on every step is solved by factors of its own, which tell whether a stiffness is
+  // positive definite: for walls that buckle.
+  void solve_by_factors() { by_factors_ = true; }
 
   // Moves the finger's point to `finger` (m). Nothing if no equilibrium is found on the way; the
   // state is then that of reached(). Throws Stopped when asked to stop.
@@ -168,6 +172,7 @@ class Press {
   };
   [[nodiscard]] std::optional<Answer> settle(const Vec3& finger, bool extrapolate);
   [[nodiscard]] bool factor();
+  [[nodiscard]] bool solve(const Vector& right, Vector& x);
   [[nodiscard]] int images_of(const Vec3& pole) const;
 
   Body body_;
@@ -179,6 +184,9 @@ class Press {
   State now_, before_;
   bool has_before_ = false;
   int factorisations_ = 0;
+  bool by_factors_ = false;
+  bool near_ = false;  // whether factors_ are those of a stiffness near the present one
+  GradientVectors vectors_;
 };
 
 }  // namespace palpate::solid

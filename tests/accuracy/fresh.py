@@ -6,8 +6,8 @@
 Scenes of fresh_scenes.py run by the defaults. The truth of --scenes of them is `palpate reference`, and of the first
 --calculix of those CalculiX as well, of which nothing is palpate's. Without --seed the draw is new.
 FOLDER/SEED-TRUTH.csv keeps every finished row, so that the same call with its seed goes on where one was stopped. A
-run of more than 60 s of processor time is stopped and counted apart. Of a viscous hold the ends of ramp and hold are
-compared, and the worse one counts.
+run of more than 60 s of processor time, or a reference of more than two minutes, is stopped and counted apart. Of a
+viscous hold the ends of ramp and hold are compared, and the worse one counts.
 """
 import argparse
 import csv
@@ -27,18 +27,19 @@ import fresh_scenes
 
 NAMES = ["scene", "kind", "body", "model", "force_mN", "truth_mN", "error", "stated", "doubt",
          "seconds", "truth_seconds", "note"]
-LIMIT = 60  # s of a processor
+LIMIT = 60  # s of a processor, of a run
+TRUTH_LIMIT = 120  # of a reference
 CALCULIX_OWN = 0.003  # a fraction of its force: two of its meshes, and what its penalty lets through
 
 
-def call(words, folder):
+def call(words, folder, limit=LIMIT):
     """Processor time (s); RuntimeError with what was said where it fails, or "too long"."""
     before = processor()
     done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False,
-                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT)))
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
     taken = processor() - before
     if done.returncode != 0:
-        if done.returncode < 0 and taken > 0.9 * LIMIT:  # ended by the limit
+        if done.returncode < 0 and taken > 0.9 * limit:  # ended by the limit
             raise RuntimeError("too long")
         raise RuntimeError(done.stderr.strip().replace("\n", " ") or f"exit code {done.returncode}")
     return taken
@@ -59,7 +60,7 @@ def processor():
 def truth_of(by, program, scene, folder):
     """(force in mN, its error in mN) at the end of every step; RuntimeError where there is none."""
     if by == "reference":
-        call([program, "reference", "scene.toml", "--out", "truth"], folder)
+        call([program, "reference", "scene.toml", "--out", "truth"], folder, TRUTH_LIMIT)
         return ends(folder / "truth/scene_reference.csv", "error_N")
     return [(1e3 * force, 1e3 * CALCULIX_OWN * force) for force in calculix.by_calculix(scene, folder)]
 
