@@ -79,6 +79,15 @@ TEST(Compare, NamesTheWorstRow) {
             "equal; worst row 2: case `b`, got 2.5, want 2, relative difference 0.25, allowed 1");
 }
 
+// As many digits as show the difference to three of its own, and no more.
+TEST(Compare, PrintsTheDigitsThatDiffer) {
+  const Table want{{"force_N"}, {{1.0 / 3.0}}};
+  Table got = want;
+  got.rows[0][0] = (1.0 + 1.25e-6) / 3.0;
+  EXPECT_EQ(comparison_text(compare(got, want, {})).substr(0, 74),
+            "force_N: DIFFERS in 1 row; worst row 1: got 0.33333375, want 0.333333333, ");
+}
+
 TEST(Compare, ColumnsByNameAndRowsByNumber) {
   const Table want{{"a", "b"}, {{1.0, 2.0}, {3.0, 4.0}}};
   EXPECT_TRUE(compare({{"b", "a"}, {{2.0, 1.0}, {4.0, 3.0}}}, want, {}).equal());

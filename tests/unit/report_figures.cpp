@@ -116,6 +116,13 @@ TEST_F(Gnuplot, DrawsForceAgainstIndentation) {
   EXPECT_EQ(count(svg, "stroke-dasharray"), 6U);  // five fits and their line in the legend
 }
 
+TEST_F(Gnuplot, TheLegendNamesWhatItsEntriesAre) {
+  plot::Figure figure = force_figure(folder_);
+  figure.legend = "tissue.material";
+  static_cast<void>(plot::draw(plot::sheet_of(figure), folder_));
+  EXPECT_NE(read("figure_force_indentation.svg").find(">tissue.material<"), std::string::npos);
+}
+
 // gnuplot takes two apostrophes at the start of a text for an empty one; in double quotes it would
 // run what stands between backquotes.
 TEST_F(Gnuplot, DrawsTitlesWithAnyCharacter) {
