@@ -88,7 +88,7 @@ class Findings {
     add("model", traits_.word);
     surface();
     if (scene_.specimen) specimen(*scene_.specimen);
-    if (!record_.contact.empty()) contact();
+    if (record_.contact.size() > 1) contact();  // the first row is before the press
     if (!record_.strain.empty()) strain();
     const auto& scales = scene_.scenario.output.display_scale;
     if (!scales.empty()) {
