@@ -18,6 +18,7 @@
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
+#include "scene/proportions.h"
 #include "tissue/coupled.h"
 #include "tissue/network.h"
 #include "tissue/springs.h"
@@ -121,6 +122,9 @@ class Findings {
           "the middle of the body's box is beside the body, so that the finger presses its top; "
           "set `finger.at` for another place");
     const scene::SurfaceTouch& touch = scene_.choice.touch;
+    if (!scenario.uniform())
+      for (const std::string& sentence : scene::disproportions(scenario, touch, expected_))
+        warning(sentence);
     const geometry::SmoothSurface* const outer_surface = scene_.outer_surface();
     if (outer_surface == nullptr || scenario.uniform() || !touch.known() || !touch.size.allFinite())
       return;
