@@ -229,6 +229,10 @@ void add_options(CLI::App& verb, Convert& convert) {
   verb.add_option("--edge", convert.edge, "For a surface: about this edge length, as \"3 mm\"")
       ->excludes(nodes)
       ->group(of_bodies);
+  verb.add_option("--repair-up-to", convert.repair_up_to,
+                  "For a surface: share of the area that holes may have, as 0.1 [0.02]")
+      ->check(CLI::Range(0.0, 0.5))
+      ->group(of_bodies);
   verb.add_option("--set", convert.settings, "Set a scenario's key")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)

@@ -136,6 +136,7 @@ struct Convert {
   std::string unit;  // of a surface's or mesh's coordinates
   int nodes = 0;     // 0: given by `edge`
   std::string edge;  // empty: the mean edge of the surface's triangles
+  std::optional<double> repair_up_to;  // of a surface, as of a scenario's; empty: its default
   std::vector<std::string> settings;
   // Of results: a folder, or one of its CSV files.
   std::string format;

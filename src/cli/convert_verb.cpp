@@ -73,6 +73,7 @@ void check_options(const Convert& command, Kind kind) {
     for (const auto& [option, given] : {std::pair{"--unit", !command.unit.empty()},
                                         {"--nodes", command.nodes > 0},
                                         {"--edge", !command.edge.empty()},
+                                        {"--repair-up-to", command.repair_up_to.has_value()},
                                         {"--set", !command.settings.empty()}})
       if (given) refuse("`" + std::string(option) + "` is not for results; leave it out");
     return;
@@ -89,6 +90,10 @@ void check_options(const Convert& command, Kind kind) {
            "; write `--unit mm`");
   if (kind != Kind::scenario && !command.settings.empty())
     refuse("`--set` is for scenarios; leave it out");
+  if (kind != Kind::surface && command.repair_up_to)
+    refuse(kind == Kind::mesh
+               ? "`--repair-up-to` is for surfaces, " + command.subject + " is a mesh; leave it out"
+               : "`--repair-up-to` is for surfaces; write `--set tissue.shape.repair_up_to=0.1`");
   if (kind == Kind::surface || (command.nodes == 0 && command.edge.empty())) return;
   const std::string option = command.nodes > 0 ? "`--nodes`" : "`--edge`";
   if (kind == Kind::mesh)
@@ -158,8 +163,11 @@ geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
   set_doing({"repair of the surface", 0, 2});
   meshing::Target target{.nodes = command.nodes};
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
-  auto [surface, mended] = meshing::whole_surface(
-      meshing::read_surface(command.subject, unit_of(command.unit)), command.subject, {});
+  meshing::RepairOrder order{.unit = command.unit};
+  if (command.repair_up_to) order.most_missing = *command.repair_up_to;
+  auto [surface, mended, part] =
+      meshing::whole_surface(meshing::read_surface(command.subject, unit_of(command.unit)),
+                             command.subject, order);
   if (!mended.empty()) talk.say("note: " + mended);
   for (const std::string& out : command.out) {
     if (!is_surface_file(out)) continue;
@@ -437,6 +445,7 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
       if (!warning.empty()) talk.say("note: " + warning);
       for (const auto& [name, number] : names)
         talk.say("note: region " + std::to_string(number) + " is `" + name + "`");
+      meshing::refuse_size(mesh.nodes, "the mesh of " + command.subject, command.unit);
       meshing::check(mesh, command.subject, 0.0);
     }
     report.mesh(mesh, nullptr);

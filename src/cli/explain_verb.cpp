@@ -25,6 +25,7 @@
 #include "scenario/schema.h"
 #include "scenario/words.h"
 #include "scene/places.h"
+#include "scene/proportions.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 #include "sweep/forecast.h"
@@ -231,6 +232,10 @@ class Explanation {
     if (const auto box = body_box())
       line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
     if (!scene_.choice.touch.warning.empty()) line("  mended       " + scene_.choice.touch.warning);
+    if (!scene_.scenario.uniform())
+      for (const std::string& sentence : scene::disproportions(
+               scene_.scenario, scene_.choice.touch, scene_.choice.expected))
+        line("  note         " + sentence);
     towards();
     if (scene_.scenario.finger.moved)
       line("  press        on the top, since the middle of the body's box is beside the body");

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/unit_factor.h"
 #include "geometry/half_edges.h"
 
 namespace palpate::meshing {
@@ -213,6 +214,39 @@ Quality quality(const geometry::TetMesh& mesh) {
   found.shortest_edge = lengths.low;
   found.longest_edge = lengths.high;
   return found;
+}
+
+std::string other_units(double size, const std::string& unit) {
+  constexpr double least = 0.005, most = 2.0;  // m
+  const double as_written = size / metres_per(unit);
+  std::string text;
+  for (const char* other : {"m", "cm", "mm", "um"}) {
+    const double length = as_written * metres_per(other);
+    if (other == unit || length < least || length > most) continue;
+    text += (text.empty() ? "in `" : ", in `") + std::string(other) + "` " +
+            (text.empty() ? "it would be " : "") + rounded_text(length) + " m" +
+            (text.empty() ? " long" : "");
+  }
+  return text;
+}
+
+void refuse_size(std::span<const Vec3> places, const std::string& name, const std::string& unit) {
+  constexpr double smallest = 1e-6;  // m: smaller than any cell
+  constexpr double largest = 10.0;   // m: larger than any tissue
+  if (places.empty()) return;
+  Vec3 low = places.front();
+  Vec3 high = low;
+  for (const Vec3& place : places) {
+    if (!place.allFinite()) return;  // refused as such
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  const double size = (high - low).maxCoeff();
+  if (size >= smallest && size <= largest) return;
+  const std::string units = other_units(size, unit);
+  throw MeshError(name + ": is " + rounded_text(size) + " m long in `" + unit +
+                  "`, but wants 1e-6 m to 10 m; check its unit" +
+                  (units.empty() ? "" : ": " + units));
 }
 
 }  // namespace palpate::meshing

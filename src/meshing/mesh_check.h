@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 
 #include "geometry/tet_mesh.h"
@@ -18,6 +19,15 @@ namespace palpate::meshing {
 // on the same side; an edge or a node at which parts of the boundary only touch; a volume that
 // differs from the expected one by more than 1e-6 of it. Every tolerance scales with the mesh.
 void check(const geometry::TetMesh& mesh, const std::string& name, double expected_volume);
+
+// Throws MeshError if the longest side of the box of these places is below 1e-6 m or above 10 m,
+// with the unit that is probably meant. `name` stands in messages as it is; `unit` is that in which
+// the coordinates were read.
+void refuse_size(std::span<const Vec3> places, const std::string& name, const std::string& unit);
+
+// The units with which a body of `size` (m), read in `unit`, would have 5 mm to 2 m, of what is
+// usually pressed: "in `cm` it would be 0.23 m long, in `mm` 0.023 m"; empty if there is none.
+[[nodiscard]] std::string other_units(double size, const std::string& unit);
 
 // Angles in rad; a regular tetrahedron has six dihedral angles of 1.231 (70.53 degrees).
 struct Quality {

@@ -18,26 +18,13 @@
 #include "meshing/cgal_library.h"
 #include "meshing/cgal_repair.h"
 #include "meshing/child_bytes.h"
+#include "meshing/mesh_check.h"
 
 namespace palpate::meshing {
 namespace {
 
-constexpr double smallest = 1e-6;  // m: smaller than any cell
-constexpr double largest = 10.0;   // m: larger than any tissue
 // In single precision a normal is meaningless below about 1e-7 of the longest edge.
 constexpr double needle = 1e-6;
-
-// A guess of the unit for a body of a strange size (m).
-std::string unit_guess(double size) {
-  constexpr double least = 0.005, most = 2.0;  // m, of what is usually pressed
-  for (const auto& [factor, words] :
-       {std::pair(1e-3, "`mm` in place of `m`"), std::pair(1e3, "`m` in place of `mm`"),
-        std::pair(1e-6, "`um` in place of `m`")})
-    if (size * factor >= least && size * factor <= most)
-      return "check its unit: with " + std::string(words) + " it would be " +
-             rounded_text(size * factor) + " m";
-  return "check its unit";
-}
 
 class SurfaceChecker {
  public:
@@ -60,15 +47,6 @@ class SurfaceChecker {
       if (!surface_.vertices[v].allFinite())
         fail("vertex " + std::to_string(v) +
              " has a coordinate that is not a finite number; export the surface again");
-    Vec3 low = surface_.vertices.front();
-    Vec3 high = low;
-    for (const Vec3& vertex : surface_.vertices) {
-      low = low.cwiseMin(vertex);
-      high = high.cwiseMax(vertex);
-    }
-    const double size = (high - low).maxCoeff();
-    if (!(size >= smallest && size <= largest))
-      fail("is " + rounded_text(size) + " m long, but wants 1e-6 m to 10 m; " + unit_guess(size));
   }
 
   void shapes() const {
@@ -417,9 +395,15 @@ int nearest_part(const std::vector<geometry::Surface>& parts, const Vec3& place)
   return found;
 }
 
+// "8 % of its volume", or "150 times its volume"
+std::string volume_text(double share) {
+  return (share < 10.0 ? percent_text(share) + " of" : rounded_text(share, 2) + " times") +
+         " its volume";
+}
+
 // Leaves one part and, where none is asked for, the cavities in it; tells what there was besides.
 std::string choose_part(geometry::Surface& surface, const std::string& name,
-                        const RepairOrder& order) {
+                        const RepairOrder& order, std::string& part) {
   const std::optional<int>& wanted = order.part;
   std::vector<geometry::Surface> parts = by_volume(surface);
   const int count = static_cast<int>(parts.size());
@@ -455,12 +439,12 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
     if (!cavity && ++beside > most_named) continue;
     std::string& list = cavity ? cavities : others;
     list += (list.empty() ? "" : ", ") + std::string("part ") + std::to_string(i) +
-            near_text(geometry::enclosed(other).centroid) + " with " + percent_text(share) +
-            " of its volume" + (cuts ? ", which cuts or touches it" : "");
+            near_text(geometry::enclosed(other).centroid) + " with " + volume_text(share) +
+            (cuts ? ", which cuts or touches it" : "");
   }
   surface = std::move(taken);
-  std::string text = "part " + std::to_string(own) + " of " + std::to_string(count) + " is taken" +
-                     (order.pressed && !wanted ? ", the nearest to the finger" : "");
+  part = "part " + std::to_string(own) + " of " + std::to_string(count);
+  std::string text = part + " is taken" + (order.pressed && !wanted ? ", the nearest to the finger" : "");
   if (hollows > 0)
     text +=
         std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;
@@ -474,11 +458,13 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
 
 WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
                            const RepairOrder& order) {
+  refuse_size(surface.vertices, "surface `" + name + "`", order.unit);
   std::string fault;
   try {
     check_closed(surface, name);
-    const std::string taken = choose_part(surface, name, order);
-    return {std::move(surface), taken.empty() ? "" : "of the surface " + name + ", " + taken};
+    std::string part;
+    const std::string taken = choose_part(surface, name, order, part);
+    return {std::move(surface), taken.empty() ? "" : "of the surface " + name + ", " + taken, part};
   } catch (const MeshError& error) {
     if (!order.repair || surface.vertices.empty() || surface.triangles.empty()) throw;
     fault = error.what();
@@ -507,7 +493,8 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
     const double needed = std::ceil(100.0 * part) / 100.0;
     return ", and up to " + percent_text(order.most_missing) +
            (needed <= limit ? " are mended by themselves; set `repair_up_to = " +
-                                  rounded_text(needed) + "` of `tissue.shape`, or mend it"
+                                  rounded_text(needed) + "` of `tissue.shape` (`--repair-up-to " +
+                                  rounded_text(needed) + "` of `palpate convert`), or mend it"
                             : " are mended by themselves; mend it") +
            " in the program it comes from";
   };
@@ -524,7 +511,7 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
                     percent_text(made.crossing / made.area) +
                     " of its area cut others of the same part" + more(made.crossing / made.area));
   whole.surface = std::move(made.surface);
-  const std::string taken = choose_part(whole.surface, name, order);
+  const std::string taken = choose_part(whole.surface, name, order, whole.part);
   try {
     check_closed(whole.surface, name);
   } catch (const MeshError& error) {

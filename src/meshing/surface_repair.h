@@ -12,9 +12,8 @@ namespace palpate::meshing {
 // vertex at fault (counting from 0), its position and a remedy. `name` is the name of the surface
 // in messages.
 //
-// Refused, in this order: no faces; an index out of range; a coordinate that is not finite; a size
-// (longest side of the bounding box) below 1e-6 m or above 10 m, probably a wrong unit; a face with
-// a repeated vertex; two faces with the same vertices; a face whose height is below 1e-6 of its
+// Refused, in this order: no faces; an index out of range; a coordinate that is not finite; a face
+// with a repeated vertex; two faces with the same vertices; a face whose height is below 1e-6 of its
 // longest edge; a vertex without a face; the first face that is a third one at an edge, faces the
 // side opposite to a neighbour's, or touches others in a vertex only; holes; an inside-out
 // surface; a part beside another, or inside another and facing outwards (one that faces inwards is
@@ -24,6 +23,7 @@ void check_closed(const geometry::Surface& surface, const std::string& name);
 struct WholeSurface {
   geometry::Surface surface;  // has passed check_closed()
   std::string warning;        // what was changed, with places and sizes; empty if nothing was
+  std::string part = {};      // `part 2 of 3`, of a surface with several; otherwise empty
 };
 
 // What is asked of a surface from a file.
@@ -32,6 +32,7 @@ struct RepairOrder {
   double most_missing = 0.02;    // of the area, that holes or crossing triangles may have
   std::optional<int> part = {};  // by falling volume, from 1; empty: the only part, or the largest
   std::optional<Vec3> pressed = {};  // m; without `part`, the part that is nearest is taken
+  std::string unit = "m";            // in which the file's coordinates were read
 };
 
 // The surface itself if it passes check_closed(). Otherwise its vertices within a millionth of its
@@ -39,7 +40,7 @@ struct RepairOrder {
 // turned one way, holes filled and triangles replaced that cross others of the same part, if the
 // holes, and these triangles, have at most a part of its area. Of several parts one remains, with
 // the cavities in it where no part is asked for; parts of less than a thousandth of its volume are
-// removed. Throws MeshError as check_closed() does for what is worse. `name` is that of the surface
+// removed. Throws MeshError as check_closed() and refuse_size() do for what is worse. `name` is that of the surface
 // in messages.
 [[nodiscard]] WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
                                          const RepairOrder& order);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "base/units.h"
 
 namespace palpate::record {
@@ -38,6 +39,15 @@ std::optional<Peak> peak_of(const CaseRecord& record) {
   double stress = 0.0;  // Pa
   for (const StrainRow& row : record.strain) stress = std::max(stress, std::abs(row.stress));
   return Peak{"stress", unit::kPa.from_si(stress), " kPa"};
+}
+
+std::string reached_text(const CaseRecord& record) {
+  const std::size_t rows = record.contact.size();
+  if (rows < 2 && record.strain.empty()) return "";
+  if (rows > 1 && record.contact[rows - 1].travel > record.contact[rows - 2].travel)
+    return "up to a displacement of " +
+           rounded_text(unit::mm.from_si(record.contact.back().travel), 3) + " mm";
+  return "up to a time of " + rounded_text(record.last_stable_time, 3) + " s";
 }
 
 Table contact_table(const std::vector<CaseRecord>& records) {

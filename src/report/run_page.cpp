@@ -498,7 +498,7 @@ std::string peak_text(const record::CaseRecord& record) {
 
 std::string peak_error(const record::CaseRecord& record) {
   const std::optional<double>& error = record.answer.stated_error;
-  if (record.outcome != record::Outcome::completed) return "until the run ended";
+  if (record.outcome != record::Outcome::completed) return record::reached_text(record);
   if (!error) return "error not known";
   return *error > 1.0 ? error_text(*error) + " off" : "± " + percent_text(*error);
 }
@@ -560,7 +560,8 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     const record::Answer& answer = record.answer;
     if (answer.neglected.empty()) return page.answer({answer.model, answer.error});  // no model ran
     const auto peak = record::peak_of(record);
-    page.headline((peak ? "Peak " + peak->of + " " : "") + peak_text(record), peak_error(record));
+    page.headline(peak ? "Peak " + peak->of + " " + peak_text(record) : "No result",
+                  peak_error(record));
     if (!record.reason.empty()) page.answer({early_end(record)});
     page.answer({tested(scenario::case_named(family, record.name), record),
                  first_statement(answer.model), "Neglected: " + neglected(answer)});

@@ -218,7 +218,8 @@ record::Answer answer(const scene::Scene& scene, const record::CaseRecord& recor
   if (record.outcome == record::Outcome::completed)
     result += ", with " + words.error(error, effects) + ".";
   else
-    result += " up to where the run ended; no error is stated.";
+    result += peak ? " " + record::reached_text(record) + ", where the run ended; no error is stated."
+                   : ": the run ended at its start.";
   return {.model = words.model(),
           .error = result,
           .neglected = Words::neglected(effects, scene.scenario.solver.tolerance),

@@ -18,6 +18,7 @@
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
+#include "scene/proportions.h"
 #include "tissue/coupled.h"
 #include "tissue/network.h"
 #include "tissue/springs.h"
@@ -88,7 +89,7 @@ class Findings {
     add("model", traits_.word);
     surface();
     if (scene_.specimen) specimen(*scene_.specimen);
-    if (!record_.contact.empty()) contact();
+    if (record_.contact.size() > 1) contact();  // the first row is before the press
     if (!record_.strain.empty()) strain();
     const auto& scales = scene_.scenario.output.display_scale;
     if (!scales.empty()) {
@@ -121,6 +122,9 @@ class Findings {
           "the middle of the body's box is beside the body, so that the finger presses its top; "
           "set `finger.at` for another place");
     const scene::SurfaceTouch& touch = scene_.choice.touch;
+    if (!scenario.uniform())
+      for (const std::string& sentence : scene::disproportions(scenario, touch, expected_))
+        warning(sentence);
     const geometry::SmoothSurface* const outer_surface = scene_.outer_surface();
     if (outer_surface == nullptr || scenario.uniform() || !touch.known() || !touch.size.allFinite())
       return;

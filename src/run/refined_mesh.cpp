@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/error.h"
 #include "mechanics/pressed_mesh.h"
 #include "meshing/bisection.h"
 #include "meshing/mesh_check.h"
@@ -15,6 +16,7 @@
 #include "scene/estimates.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
+#include "scene/proportions.h"
 #include "scene/refining_press.h"
 #include "scene/specimen_mesh.h"
 
@@ -210,12 +212,23 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes, scene::Choice choice) {
-  if (scene::refines(choice.chosen)) {
-    scene::refuse_misplaced(choice.chosen, family, shapes);
-    (void)shapes.shape(choice.chosen,
-                       [&] { return Refining(one, family, choice.chosen, shapes).refined(); });
+  if (!choice.chosen.uniform())
+    scene::refuse_through(choice.chosen, choice.touch, choice.expected, family);
+  try {
+    if (scene::refines(choice.chosen)) {
+      scene::refuse_misplaced(choice.chosen, family, shapes);
+      (void)shapes.shape(choice.chosen,
+                         [&] { return Refining(one, family, choice.chosen, shapes).refined(); });
+    }
+    return scene::build(one, family, shapes, choice);
+  } catch (const MeshError& error) {
+    const auto* file = std::get_if<scenario::SurfaceFile>(&choice.chosen.tissue.shape);
+    const std::string part =
+        file == nullptr ? "" : shapes.surface(choice.chosen, family.folder).part;
+    if (part.empty()) throw;
+    throw MeshError(std::string(error.what()) + " (the body is " + part + " of " + file->file +
+                    ")");
   }
-  return scene::build(one, family, shapes, std::move(choice));
 }
 
 }  // namespace palpate::run

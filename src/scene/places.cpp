@@ -415,10 +415,11 @@ double share_inside(const geometry::Surface& body, const geometry::Inclusion& in
 }
 
 void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
-                    const scenario::Family& family) {
+                    const scenario::Family& family, const std::string& part) {
   const Box box = box_of(body.vertices);
   const std::string own_box = box_in_file(scenario, body.vertices).text();
-  const std::string where = ", " + coordinates_text(scenario);
+  const std::string where =
+      ", " + coordinates_text(scenario) + (part.empty() ? "" : ", where it is " + part);
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     const std::string path = "region." + std::to_string(i + 1);
     if (const auto* slab = std::get_if<scenario::Slab>(&scenario.regions[i].part)) {
@@ -471,8 +472,8 @@ void refuse_misplaced(const scenario::Resolved& scenario, const scenario::Family
     refuse_outside(scenario, geometry::sampled(*shape, {spacing, spacing}).parts.front().surface,
                    family);
   } else if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
-    const auto surface = shapes.surface(scenario, family.folder).surface;
-    if (surface) refuse_outside(scenario, surface->surface(), family);
+    const auto& read = shapes.surface(scenario, family.folder);
+    if (read.surface) refuse_outside(scenario, read.surface->surface(), family, read.part);
   }
 }
 

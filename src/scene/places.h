@@ -62,8 +62,9 @@ struct BaseArea {
 
 // Throws InputError with both boxes for an inclusion of which less than 99 % lies inside the body,
 // a layer of which less than 99 % lies in its height, and a base above or below the body.
+// `part` is the one that is taken of a file with several, for messages.
 void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
-                    const scenario::Family& family);
+                    const scenario::Family& family, const std::string& part = "");
 
 // The same for the body of a shape or of a surface file; nothing for other bodies.
 void refuse_misplaced(const scenario::Resolved& scenario, const scenario::Family& family,

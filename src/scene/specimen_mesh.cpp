@@ -274,7 +274,11 @@ std::vector<geometry::Inclusion> inclusions_of(const Scenario& scenario) {
 
 meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& folder) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
-  meshing::RepairOrder order{file.repair, file.repair_up_to, file.part};
+  meshing::RepairOrder order{.repair = file.repair,
+                             .most_missing = file.repair_up_to,
+                             .part = file.part,
+                             .pressed = {},
+                             .unit = file.unit};
   if (const auto& at = scenario.finger.at; at.size() == 3 && !scenario.uniform())
     order.pressed = Vec3(at[0], at[1], at[2]);
   return meshing::whole_surface(
@@ -282,7 +286,9 @@ meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& fo
 }
 
 meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {
-  return meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
+  auto read = meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
+  meshing::refuse_size(read.mesh.nodes, "the mesh of " + file.file, file.unit);
+  return read;
 }
 
 std::vector<std::array<Vec3, 3>> faces_of_base(const Scenario& scenario,

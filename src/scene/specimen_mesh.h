@@ -34,7 +34,8 @@ void refuse_covered_inclusions(const scenario::Resolved& scenario);
 [[nodiscard]] meshing::WholeSurface surface_of(const scenario::Resolved& scenario,
                                                const std::string& folder);
 
-// The mesh from the scenario's file, not turned, with the file's numbers of regions.
+// The mesh from the scenario's file, not turned, with the file's numbers of regions. Throws
+// InputError if it cannot be read, MeshError for a size that no body has.
 [[nodiscard]] meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder);
 
 // The triangles of the group of faces that `tissue.base_side` names in the body's file, not turned.

@@ -191,6 +191,7 @@ SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario
 void SpecimenShapes::FileSurface::copy(const FileSurface& other) {
   surface = other.surface;
   warning = other.warning;
+  part = other.part;
   fault = other.fault;
   refusal = other.refusal;
 }
@@ -224,6 +225,7 @@ const SpecimenShapes::FileSurface& SpecimenShapes::surface(const Scenario& scena
   try {
     meshing::WholeSurface whole = surface_of(scenario, folder);
     known.warning = std::move(whole.warning);
+    known.part = std::move(whole.part);
     known.surface = std::make_shared<const geometry::SmoothSurface>(std::move(whole.surface));
   } catch (const MeshError& error) {
     refuse(error);

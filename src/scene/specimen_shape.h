@@ -68,6 +68,7 @@ class SpecimenShapes {
     std::mutex reading;
     std::shared_ptr<const geometry::SmoothSurface> surface;
     std::string warning;         // of meshing::WholeSurface
+    std::string part;            // likewise
     std::string fault;           // why there is no surface
     std::exception_ptr refusal;  // the same as it was thrown
     // Throws the refusal, if there is one.

@@ -62,7 +62,7 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
                        : on_an_edge;
   } else {
     touch.curvature = found->curvature;
-    touch.thickness = found->position.z();
+    touch.thickness = touch.to_base = found->position.z();
     put(touch, found->position, radius);
     if (std::holds_alternative<geometry::Cylinder>(shape) ||
         std::holds_alternative<geometry::LayeredLimb>(shape))
@@ -143,6 +143,17 @@ contact::SphereLaw law_on_flat(const Scenario& scenario) {
   return {scenario.finger.radius, contact::hertz::effective_modulus(0.0, tissue.compliance())};
 }
 
+// How far the body reaches straight down from a point (m) of its surface, if it is held there, m.
+double held_thickness(const geometry::Surface& surface, const Vec3& point,
+                      const Scenario& scenario) {
+  const double thickness = thickness_under(surface, point);
+  const Vec3 below = point - thickness * Vec3::UnitZ();
+  const double rounding = 1e-6 * thickness;
+  return below.dot(scenario.tissue.base_up) > base_level(scenario, surface) + rounding
+             ? std::numeric_limits<double>::infinity()
+             : thickness;
+}
+
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
   SurfaceTouch touch;
   const auto& vertices = surface.surface().vertices;
@@ -165,6 +176,7 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
     touch.nowhere = true;
     return touch;
   }
+  touch.to_base = held_thickness(surface.surface(), surface.position(first.at), scenario);
   if (first.on_crease) {
     touch.to_edge = 0.0;
     touch.cannot = on_an_edge;

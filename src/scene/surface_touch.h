@@ -20,6 +20,8 @@ struct SurfaceTouch {
   Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
   // m, from the touch straight down to where the body ends, or the wall of a hollow one.
   double thickness = std::numeric_limits<double>::infinity();
+  // m, the same where what is down there is held; infinite above a wall or a side that is free.
+  double to_base = std::numeric_limits<double>::infinity();
   Vec3 lowest = Vec3::Zero();     // m, the lowest point of one sphere at first touch
   Vec3 position = Vec3::Zero();   // m, of the surface
   geometry::Curvature curvature;  // there, with the normal

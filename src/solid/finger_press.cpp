@@ -214,9 +214,6 @@ namespace {
 
 constexpr double aside = 1e-3;  // for slopes
 
-using Pairs =
-    std::vector<std::pair<double, double>>;  // of a travel and another quantity, ascending
-
 // The parabola through the three points nearest to x in logarithms. Below the first point its slope
 // there goes over to `power`, that of the smallest contacts; beyond the last one it goes on
 // straight.
@@ -246,6 +243,19 @@ double between(const Pairs& points, double x, double power) {
   }
   const double slope = (parabola(begin * (1.0 + aside)) - std::log(value)) / std::log(1.0 + aside);
   return value * std::pow(x / begin, power) * std::exp((slope - power) * (x / begin - 1.0));
+}
+
+// Where `below` changes from true to false between 0 and `most`.
+template <class Below>
+double root(double most, const Below& below) {
+  double low = 0.0;
+  double high = most;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (below(middle) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 // Whether points are their own images across the plane through 0 normal to an axis.
@@ -309,7 +319,7 @@ double FingerPress::upright() const {
 }
 
 // Presses the ball of an elastic finger, by the undeformed tissue, until it bears a force (N,
-// upwards). Says in reason() where no equilibrium was found.
+// upwards), or as far as there is an equilibrium.
 void FingerPress::press_ball(double force) {
   const double part = (1.0 - order_.share) * order_.deepest;
   if (!ball_press_) {
@@ -326,15 +336,15 @@ void FingerPress::press_ball(double force) {
   // Hertz's depth, but for a factor: a finger on a soft wall hardly yields.
   const double modulus = order_.ball->young_modulus;
   const double expected = std::pow(force / (modulus * std::sqrt(order_.radius)), 2.0 / 3.0);
-  while (reason_.empty() && ((ball_.points.size() < 3 && ball_.reached < part) || !bears())) {
+  while (ball_.end == End::open &&
+         ((ball_.points.size() < 3 && ball_.reached < part) || !bears())) {
     const double next = ball_.reached == 0.0   ? std::min(0.25 * part, expected)
                         : ball_.reached < part ? 2.0 * ball_.reached
                                                : 1.5 * ball_.reached;
     const auto found = ball_press_->go(-next / (1.0 - order_.share) * Vec3::UnitZ());
     if (!found && bears()) return;
     if (!found) {
-      reason_ = "the solid finds no equilibrium of the finger's ball beyond a displacement of " +
-                quantity_text(ball_.reached, unit::mm) + "; press less deep";
+      ball_.end = End::folds;
       return;
     }
     ball_.reached = next;
@@ -406,18 +416,42 @@ std::optional<Answer> FingerPress::go(double travel) {
              quantity_text(travel / order_.share, unit::mm) + " of " +
              quantity_text(order_.deepest, unit::mm)});
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
-  if (!found) {
-    const double reached = order_.touch.finger.z() - press_->reached().z();
-    reason_ = reached > 0.0 ? "the solid finds no equilibrium beyond a displacement of " +
-                                  rounded_text(unit::mm.from_si(reached), 3) +
-                                  " mm: the tissue folds, or a wall buckles there; press "
-                                  "less deep"
-                            : "the body gives way sideways as soon as the finger touches it: press "
-                              "it nearer to where it is held, or across its length "
-                              "(`finger.towards`), or hold more of it (`tissue.base_height`, "
-                              "`tissue.base_side`)";
-  }
+  if (!found) tissue_.end = End::folds;
   return found;
+}
+
+// The finger's travel at the end of the curves: where the ball bears the tissue's last force, or the
+// tissue that of a ball that bears no more, m.
+double FingerPress::found_to() const {
+  if (!order_.ball) return tissue_.reached;
+  if (tissue_.points.empty() || ball_.points.empty())  // Hertz's shares
+    return std::max(tissue_.reached / order_.share, ball_.reached / (1.0 - order_.share));
+  const Pairs tissue = of_tissue(tissue_);
+  const Pairs ball = of_ball();
+  const double ball_end = ball_.reached / upright();
+  if (ball_.end == End::open) {
+    const double force = between(tissue, tissue_.reached, 1.5);
+    return tissue_.reached +
+           root(ball_end, [&](double at) { return between(ball, at, 1.5) < force; });
+  }
+  const double force = between(ball, ball_end, 1.5);
+  return ball_end +
+         root(tissue_.reached, [&](double at) { return between(tissue, at, 1.5) < force; });
+}
+
+std::string FingerPress::end_text() const {
+  if (ball_.end == End::open && !(tissue_.reached > 0.0))
+    return "the body gives way sideways as soon as the finger touches it: press it nearer to where "
+           "it is held, or across its length (`finger.towards`), or hold more of it "
+           "(`tissue.base_height`, `tissue.base_side`)";
+  const std::string beyond =
+      " beyond a displacement of " + rounded_text(unit::mm.from_si(found_to()), 3) + " mm";
+  if (ball_.end != End::open)
+    return "the solid finds no equilibrium of the finger's ball" + beyond + "; press less deep";
+  if (tissue_.end == End::snaps)
+    return "a wall snaps away from the finger" + beyond + "; press less deep";
+  return "the solid finds no equilibrium" + beyond +
+         ": the tissue folds, or a wall buckles there; press less deep";
 }
 
 // Points at a quarter and half of the order's travel and there, and beyond it by up to half more at
@@ -432,9 +466,7 @@ bool FingerPress::reach(double travel) {
     if (!answer) return;
     lost = answer->normal() < bearing * modulus * order_.radius * at;
     if (lost && in_steps_ && !tissue_.points.empty()) {
-      reason_ = "a wall snaps away from the finger beyond a displacement of " +
-                rounded_text(unit::mm.from_si(tissue_.reached / order_.share), 3) +
-                " mm; press less deep";
+      tissue_.end = End::snaps;
       return;
     }
     tissue_.reached = at;
@@ -444,26 +476,25 @@ bool FingerPress::reach(double travel) {
   };
   constexpr double steps = 16.0;
   const double deepest = order_.share * order_.deepest;
-  while (reason_.empty() && tissue_.reached < std::max(deepest, travel)) {
+  while (tissue_.end == End::open && tissue_.reached < std::max(deepest, travel)) {
     double next = tissue_.reached > 0.0 ? 2.0 * tissue_.reached : 0.25 * deepest;
     if (tissue_.reached >= deepest) next = std::min(next, 1.5 * tissue_.reached);
     if (in_steps_) next = (std::round(steps * tissue_.reached / deepest) + 1.0) / steps * deepest;
     take(next, go(next));
     if (!in_steps_ && (lost || !is_power_law() || tissue_.points.empty())) {
       in_steps_ = true;
-      reason_.clear();
       tissue_ = {};
       press_->solve_by_factors();
       press_->begin(order_.touch.finger);
       continue;
     }
-    if (reason_.empty()) continue;
+    if (tissue_.end == End::open) continue;
     if (lost) break;
     constexpr double farther = 1.02;
     const double found = order_.share * (order_.touch.finger.z() - press_->reached().z());
     if (found > farther * tissue_.reached) take(found, press_->go(press_->reached()));
   }
-  return reason_.empty() || (!order_.ball && travel <= tissue_.reached);
+  return travel <= tissue_.reached;
 }
 
 // The exponent of the force over the travel is 1.5 of a small contact, 1 of a plate that bends, and
@@ -495,37 +526,41 @@ std::optional<std::pair<double, double>> FingerPress::snap() const {
   return range;
 }
 
-double FingerPress::shared(const Curve& tissue, double travel, double power) const {
-  Pairs of_tissue;
-  Pairs of_ball;
+Pairs FingerPress::of_tissue(const Curve& tissue) {
+  Pairs found;
   // Every sphere in contact at the deepest bears its part.
   const double spheres = std::max(1, tissue.points.back().moment.touching);
-  for (const Point& point : tissue.points)
-    of_tissue.emplace_back(point.travel, point.force / spheres);
+  for (const Point& point : tissue.points) found.emplace_back(point.travel, point.force / spheres);
+  return found;
+}
+
+Pairs FingerPress::of_ball() const {
+  Pairs found;
   for (const Point& point : ball_.points)
-    of_ball.emplace_back(point.travel / upright(), point.force * upright());
-  double low = 0.0;
-  double high = travel;
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (between(of_tissue, middle, power) < between(of_ball, travel - middle, 1.5) ? low : high) =
-        middle;
-  }
-  return 0.5 * (low + high);
+    found.emplace_back(point.travel / upright(), point.force * upright());
+  return found;
+}
+
+double FingerPress::shared(const Curve& curve, double travel, double power) const {
+  const Pairs tissue = of_tissue(curve);
+  const Pairs ball = of_ball();
+  return root(travel, [&](double own) {
+    return between(tissue, own, power) < between(ball, travel - own, 1.5);
+  });
 }
 
 // Both curves are found as far as that takes; the last few per cent go on straight.
 double FingerPress::tissue_travel(double travel) {
   const double expected = order_.share * travel;
-  if (!reach(expected) || !order_.ball || tissue_.points.empty()) return expected;
+  (void)reach(expected);
+  if (!order_.ball || tissue_.points.empty()) return expected;
   for (;;) {
     const Point& last = tissue_.points.back();
     press_ball(last.force / std::max(1, last.moment.touching));
-    if (!reason_.empty()) return expected;
+    if (ball_.points.empty()) return expected;
     const double own = shared(tissue_, travel, 1.5);
     constexpr double straight = 1.05;
-    if (own <= straight * tissue_.reached || !reach(own)) return own;
+    if (ball_.end != End::open || own <= straight * tissue_.reached || !reach(own)) return own;
   }
 }
 
@@ -533,13 +568,20 @@ std::optional<Moment> FingerPress::once(double travel, double power) {
   if (!(travel > 0.0)) return Moment{};
   const double own = order_.share * travel;
   const auto answer = go(own);
-  if (!answer) return std::nullopt;
+  if (!answer) {
+    tissue_.reached = order_.share * (order_.touch.finger.z() - press_->reached().z());
+    reason_ = end_text();
+    return std::nullopt;
+  }
   if (!(answer->normal() > 0.0)) return Moment{};
   Curve alone;
   alone.points.push_back(
       {own - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
   if (order_.ball) press_ball(answer->normal() / std::max(1, answer->touching));
-  if (!reason_.empty()) return std::nullopt;
+  if (ball_.end != End::open) {
+    reason_ = end_text();
+    return std::nullopt;
+  }
   const double met = order_.ball ? shared(alone, travel, power) : own;
   return moment_of(*answer, between({{own - answer->lost, answer->normal()}}, met, power));
 }
@@ -550,12 +592,16 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
   if (there != this) {
     auto found = there->at_travel(travel + there->order_.touch.finger.z() - order_.touch.finger.z(),
                                   Vec3::Zero());
-    reason_ = there->reason_;
+    if (!found) reason_ = there->reason_;
     return found;
   }
   if (!(travel > 0.0)) return Moment{};
   const double own = tissue_travel(travel);
-  if (!reason_.empty() && (order_.ball || own > tissue_.reached)) return std::nullopt;
+  if ((tissue_.end != End::open && own > tissue_.reached) ||
+      (ball_.end != End::open && (travel - own) * upright() > ball_.reached)) {
+    reason_ = end_text();
+    return std::nullopt;
+  }
   if (tissue_.points.empty()) return Moment{};
   Pairs force;
   Pairs radius;

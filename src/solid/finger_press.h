@@ -72,6 +72,9 @@ struct FingerOrder {
   std::string part = {};  // of a longer way, for the progress of the run
 };
 
+// Of a travel (m) and another quantity, ascending.
+using Pairs = std::vector<std::pair<double, double>>;
+
 // Force over travel or slide by a few equilibria and what lies between them.
 struct Moment {
   double force = 0.0;           // N, upwards
@@ -93,8 +96,8 @@ class FingerPress {
   // What the order points to must outlive the call. Throws MeshError.
   explicit FingerPress(FingerOrder order);
 
-  // At a place beside the first touch (m). Nothing where no equilibrium was found; reason() then
-  // says why. Throws Stopped.
+  // At a place beside the first touch (m). Nothing beyond the last equilibrium that was found;
+  // reason() then says why. Throws Stopped.
   [[nodiscard]] std::optional<Moment> at_travel(double travel, const Vec3& place = Vec3::Zero());
   // At one travel after `slid` m of a slide from `start` to `end`, which are places beside the
   // first touch (m): presses at places a contact radius apart, and cubics between them. They are
@@ -127,14 +130,20 @@ class FingerPress {
     double force = 0.0;   // N
     Moment moment;
   };
+  // Why a curve has no more points.
+  enum class End { open, folds, snaps };
   // The force on the tissue, or on the ball, over its part of the travel.
   struct Curve {
     std::vector<Point> points = {};
     double reached = 0.0;  // m, travel at the last of them, with what is lost
+    End end = End::open;
   };
-  // Finds the curve of the tissue up to a travel of its own (m); false where there is no
-  // equilibrium.
+  [[nodiscard]] static Pairs of_tissue(const Curve& tissue);
+  [[nodiscard]] Pairs of_ball() const;
+  // Finds the curve of the tissue up to a travel of its own (m); false where it ends before.
   [[nodiscard]] bool reach(double travel);
+  [[nodiscard]] double found_to() const;
+  [[nodiscard]] std::string end_text() const;  // why there is no equilibrium, and from where on
   [[nodiscard]] bool is_power_law() const;
   [[nodiscard]] std::optional<Answer> go(double travel);
   [[nodiscard]] static Moment moment_of(const Answer& answer, double force);

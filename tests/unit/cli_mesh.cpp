@@ -170,7 +170,22 @@ TEST_F(MeshVerb, ShowsTheCornersOfTheSolidsMesh) {
   auto report = numbers(ended.out);
   EXPECT_NEAR(4.0 * report["volume_mm3"], 108e3, 1e-6 * 108e3);  // 60 x 60 x 30 mm
   EXPECT_EQ(report.count("springs"), 0);
-  EXPECT_EQ(quality({"quarter.vtu", "--unit", "m"})["tetrahedra"], report["tetrahedra"]);
+  EXPECT_EQ(quality({"quarter.vtu", "--unit", "mm"})["tetrahedra"], report["tetrahedra"]);
+  expect_refused(5, {"quarter.vtu", "--unit", "m"}, "check its unit: in `cm` it would be 0.3 m");
+}
+
+// A cube without its lid, by the option that its refusal names.
+TEST_F(MeshVerb, MendsAnOpenSurfaceAsFarAsIsAsked) {
+  expect_refused(5, {"open.off", "--unit", "mm", "--repair-up-to", "0.1"},
+                 "(`--repair-up-to 0.17` of `palpate convert`)");
+  const Ended ended = mesh({"open.off", "--unit", "mm", "--repair-up-to", "0.17"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NEAR(numbers(ended.out)["volume_mm3"], 1000.0, 1e-6);
+  expect_refused(2, {"box.node", "--unit", "m", "--repair-up-to", "0.1"},
+                 "`--repair-up-to` is for surfaces");
+  expect_refused(2, {project_file("scenarios/model_cube.toml"), "--repair-up-to", "0.1"},
+                 "write `--set tissue.shape.repair_up_to=0.1`");
+  expect_refused(2, {"open.off", "--unit", "mm", "--repair-up-to", "0.9"}, "--repair-up-to");
 }
 
 TEST_F(MeshVerb, RefusesWhatCannotServe) {

@@ -100,6 +100,70 @@ TEST_F(RunBodies, a_thin_wall_is_pressed_on_two_meshes) {
   EXPECT_NEAR(found, force(), stated);
 }
 
+// What a wrong unit does: the press is deeper than the body, or the finger wider.
+TEST_F(RunBodies, a_press_out_of_proportion_is_refused_or_told) {
+  const std::string column_24_mm = column(0.0);
+  const auto explained = [&](const std::string& tissue, const std::string& where,
+                             const std::string& to) {
+    write_file(folder_ / "press.toml", "[[step]]\nkind = \"indent\"\nto = \"" + to +
+                                           "\"\n[solver]\nmodel = \"solid\"\n[finger]\nmaterial = "
+                                           "\"rigid\"\nradius = \"30 mm\"\n" +
+                                           where + "[tissue]\nviscosity = \"none\"\n" + tissue);
+    return palpate(folder_.path(), {"explain", "press.toml"});
+  };
+  const Ended through = explained(column_24_mm, "", "22 mm");
+  EXPECT_EQ(through.code, 2);
+  EXPECT_TRUE(says(through,
+                   "press.toml:3:6: `to` of 22 mm presses through the tissue, which is 24 mm thick "
+                   "between the finger and what holds it; press less deep, or check the size of "
+                   "the body and `unit` of `tissue.shape`: in `cm` it would be 0.24 m long"))
+      << through.err;
+  const Ended deep = explained(column_24_mm, "", "13 mm");
+  EXPECT_EQ(deep.code, 0) << deep.err;
+  EXPECT_NE(deep.out.find("the press takes 54 % of the tissue, which is 24 mm thick"),
+            std::string::npos)
+      << deep.out;
+  EXPECT_NE(deep.out.find("the finger of radius 30 mm is wider than the body, which is 12 x 12 x "
+                          "24 mm"),
+            std::string::npos)
+      << deep.out;
+  // From a side without a base behind it the column bends away.
+  const std::string side = "towards = \"-x\"\nat = [\"12 mm\", \"6 mm\", \"18 mm\"]\n";
+  const std::string free = column_24_mm.substr(column_24_mm.find("shape"));
+  const Ended bends = explained(free, side, "13 mm");
+  EXPECT_EQ(bends.code, 0) << bends.err;
+  EXPECT_EQ(bends.out.find("the press takes"), std::string::npos) << bends.out;
+  const Ended away = explained(free, side, "25 mm");
+  EXPECT_EQ(away.code, 2);
+  EXPECT_TRUE(says(away, "`to` of 25 mm is more than the length of the body")) << away.err;
+}
+
+TEST_F(RunBodies, a_refusal_names_the_part_that_is_taken) {
+  geometry::Surface surface =
+      geometry::outer_surface(
+          geometry::cuboid(Vec3(0.012, 0.012, 0.024), {2, 2, 4}, geometry::CellPattern::mirrored))
+          .surface;
+  const geometry::Surface one = surface;
+  const int count = static_cast<int>(one.vertices.size());
+  for (const Vec3& vertex : one.vertices)
+    surface.vertices.push_back(0.1 * vertex + Vec3(0.03, 0.0, 0.0));
+  for (const auto& [a, b, c] : one.triangles)
+    surface.triangles.push_back({a + count, b + count, c + count});
+  write_off(folder_ / "two.off", surface);
+  const auto taken = [&](int part, const std::string& centre) {
+    return run("shape = { kind = \"file\", file = \"two.off\", unit = \"mm\", part = " +
+                   std::to_string(part) + " }\n",
+               "", "[[region]]\nkind = \"sphere\"\nradius = \"0.2 mm\"\ncentre = " + centre + "\n",
+               "0.2 mm");
+  };
+  const Ended away = taken(2, "[\"6 mm\", \"6 mm\", \"12 mm\"]");
+  EXPECT_EQ(away.code, 2);
+  EXPECT_TRUE(says(away, "in the file's coordinates, where it is part 2 of 2")) << away.err;
+  const Ended small = taken(2, "[\"30.6 mm\", \"0.6 mm\", \"1.2 mm\"]");
+  EXPECT_EQ(small.code, 0) << small.err;
+  EXPECT_TRUE(says(small, "with 1000 times its volume")) << small.err;
+}
+
 TEST_F(RunBodies, a_turned_column_is_held_as_a_straight_one) {
   const auto at = [](double degrees) {
     const Vec3 top =

@@ -57,6 +57,37 @@ class OfAPress : public testing::Test {
   inline static Ended ended_;
 };
 
+// A layer that folds under the default finger, which is elastic.
+TEST(ARunThatEndsEarly, keeps_its_curve_and_shows_no_force_where_there_is_none) {
+  const TemporaryFolder folder;
+  write_file(folder / "thin.toml",
+             "[tissue]\nmaterial = \"muscle\"\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.45\n"
+             "shape = { kind = \"cuboid\", size = [\"40 mm\", \"40 mm\", \"5 mm\"] }\n"
+             "[finger]\nradius = \"10 mm\"\n[solver]\nmodel = \"solid\"\n"
+             "[[step]]\nkind = \"indent\"\nto = \"4 mm\"\nrate = \"5 mm/s\"\n"
+             "[output]\ninterval = \"10 ms\"\nfigures = false\n");
+  const auto head = [&](const char* run) {
+    const std::string page = read_file(folder / run / "thin/report.html");
+    const std::size_t from = page.find("class=\"big\">");
+    return page.substr(from, page.find("</p>", from) - from);
+  };
+  const Ended kept = palpate(folder.path(), {"run", "thin.toml", "--out", "kept"});
+  EXPECT_EQ(kept.code, 4);
+  const record::Table rows = record::read_csv(folder / "kept/thin/force_indentation.csv");
+  const std::size_t last = rows.rows.size() - 1;
+  EXPECT_GT(number(rows, last, "travel_mm"), 3.5);  // 3.6 mm; nine tenths of the way
+  EXPECT_LT(number(rows, last, "travel_mm"), 3.7);
+  EXPECT_GT(number(rows, last, "force_N"), number(rows, last / 2, "force_N"));
+  EXPECT_NE(head("kept").find(" N <span>up to a displacement of 3."), std::string::npos)
+      << head("kept");
+  const Ended none = palpate(
+      folder.path(), {"run", "thin.toml", "--out", "none", "--set", "output.interval=\"1 s\""});
+  EXPECT_EQ(none.code, 4);
+  EXPECT_NE(head("none").find("No result"), std::string::npos) << head("none");
+  EXPECT_EQ(head("none").find("0 N"), std::string::npos) << head("none");
+  EXPECT_EQ(record::read_csv(folder / "none/thin/findings.csv").find("peak_force_N"), -1);
+}
+
 TEST_F(OfAPress, has_all_its_files) {
   ASSERT_EQ(ended_.code, 0) << ended_.err;
   EXPECT_EQ(names_in(result()),

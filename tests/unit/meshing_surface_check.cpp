@@ -94,15 +94,26 @@ TEST(SurfaceCheck, refuses_what_is_not_finite) {
   }
 }
 
+// With every unit that makes a body of it.
 TEST(SurfaceCheck, asks_about_the_unit) {
-  EXPECT_EQ(closed(corner(60.0)),
-            "surface `paw`: is 60 m long, but wants 1e-6 m to 10 m; check its unit: with `mm` in "
-            "place of "
-            "`m` it would be 0.06 m");
-  EXPECT_EQ(closed(corner(6e-8)),
-            "surface `paw`: is 6e-08 m long, but wants 1e-6 m to 10 m; check its unit");
-  EXPECT_EQ(closed(corner(1e300)),
-            "surface `paw`: is 1e+300 m long, but wants 1e-6 m to 10 m; check its unit");
+  const auto size = [](double factor, const std::string& unit) {
+    return test::refusal<MeshError>(
+        [&] { refuse_size(corner(factor).vertices, "surface `paw`", unit); });
+  };
+  EXPECT_EQ(size(60.0, "m"),
+            "surface `paw`: is 60 m long in `m`, but wants 1e-6 m to 10 m; check its unit: in `cm` "
+            "it would be 0.6 m long, in `mm` 0.06 m");
+  EXPECT_EQ(size(2e-7, "um"),
+            "surface `paw`: is 2e-07 m long in `um`, but wants 1e-6 m to 10 m; check its unit: in "
+            "`m` it would be 0.2 m long");
+  EXPECT_EQ(size(6e-8, "m"),
+            "surface `paw`: is 6e-08 m long in `m`, but wants 1e-6 m to 10 m; check its unit");
+  EXPECT_EQ(size(1e300, "m"),
+            "surface `paw`: is 1e+300 m long in `m`, but wants 1e-6 m to 10 m; check its unit");
+  EXPECT_EQ(other_units(0.0115, "cm"), "in `m` it would be 1.15 m long");
+  EXPECT_EQ(test::refusal<MeshError>([] { return whole_surface(corner(60.0), "paw", {}); })
+                .substr(0, 32),
+            "surface `paw`: is 60 m long in `");
 }
 
 TEST(SurfaceCheck, refuses_a_repeated_vertex) {

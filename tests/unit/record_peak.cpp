@@ -20,5 +20,16 @@ TEST(Peak, IsOfWhatWasNotPrescribed) {
   EXPECT_EQ(peak_of(record)->of, "force");
 }
 
+TEST(ReachedText, IsTheDisplacementOfAPressAndTheTimeOfOtherMotions) {
+  CaseRecord record;
+  record.contact = {{.travel = 0.0}};
+  EXPECT_EQ(reached_text(record), "");  // the row before the press
+  record.contact.push_back({.travel = 3.6e-3});
+  record.last_stable_time = 0.72;
+  EXPECT_EQ(reached_text(record), "up to a displacement of 3.6 mm");
+  record.contact.push_back({.travel = 3.6e-3});
+  EXPECT_EQ(reached_text(record), "up to a time of 0.72 s");
+}
+
 }  // namespace
 }  // namespace palpate::record

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "contact/elliptic.h"
@@ -70,8 +71,7 @@ TEST(FingerPress, IsOneCurveWhateverIsAskedFirst) {
   EXPECT_EQ(up.at_travel(0.0)->force, 0.0);
 }
 
-// A layer that folds at nine tenths of this travel keeps the force up to there.
-TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
+FingerOrder thin_layer() {
   FingerOrder order;
   order.body.shape = geometry::Cuboid{Vec3(0.04, 0.04, 0.005)};
   order.body.tissues = {{10e3, 0.45}};
@@ -79,6 +79,12 @@ TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
   order.radius = 10e-3;
   order.deepest = 4e-3;
   touch(order, Vec3(0.02, 0.02, 0.005));
+  return order;
+}
+
+// A layer that folds at nine tenths of this travel keeps the force up to there.
+TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
+  FingerOrder order = thin_layer();
   FingerPress folds(order);
   EXPECT_FALSE(folds.at_travel(4e-3));
   EXPECT_NE(folds.reason().find("no equilibrium beyond a displacement of 3.6"), std::string::npos)
@@ -90,6 +96,32 @@ TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
     const auto found = holds.at_travel(travel);
     ASSERT_TRUE(kept && found);
     EXPECT_NEAR(kept->force, found->force, 0.02 * found->force);  // two meshes
+  }
+}
+
+// So does one under an elastic finger, which yields by a tenth of Hertz's depth. The end that is told
+// is the finger's displacement, up to which there is a force.
+TEST(FingerPress, AnElasticFingerKeepsWhatItFoundToo) {
+  FingerOrder order = thin_layer();
+  order.ball = tissue::Isotropic{90e3, 0.45};
+  order.share = 0.9;
+  order.deepest = 5e-3;
+  FingerPress folds(order);
+  EXPECT_FALSE(folds.at_travel(5e-3));
+  const std::string beyond = "beyond a displacement of ";
+  const std::size_t at = folds.reason().find(beyond);
+  ASSERT_NE(at, std::string::npos) << folds.reason();
+  const double end = 1e-3 * std::stod(folds.reason().substr(at + beyond.size()));
+  EXPECT_TRUE(folds.at_travel(0.99 * end));
+  EXPECT_FALSE(folds.at_travel(1.01 * end));
+  order.deepest = 4e-3;
+  FingerPress holds(order);
+  for (const double travel : {2e-3, 3e-3, 4e-3}) {
+    const auto kept = folds.at_travel(travel);
+    const auto found = holds.at_travel(travel);
+    ASSERT_TRUE(kept && found) << end;
+    // Two meshes, each of which states this.
+    EXPECT_NEAR(kept->force, found->force, 2.0 * error_of_one_mesh * found->force);
   }
 }
 

@@ -1,0 +1,93 @@
+// Compares displacement, finger and body.
+#include "scene/proportions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "meshing/mesh_check.h"
+
+namespace palpate::scene {
+namespace {
+
+// Of the thickness, for the tissue's share of a displacement.
+constexpr double through = 0.9;
+constexpr double deep = 0.5;
+
+// "; with another unit of `tissue.shape` ...", of a body from a file.
+std::string unit_text(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  const auto* surface = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
+  const auto* mesh = std::get_if<scenario::MeshFile>(&scenario.tissue.mesh);
+  const bool meshed = std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape);
+  if (surface == nullptr && (mesh == nullptr || !meshed)) return "";
+  const std::string others = meshing::other_units(
+      touch.size.maxCoeff(), surface != nullptr ? surface->unit : mesh->unit);
+  return std::string(" and `unit` of `tissue.") + (surface != nullptr ? "shape`" : "mesh`") +
+         (others.empty() ? "" : ": " + others);
+}
+
+std::string size_text(const Vec3& size) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+    text += (axis == 0 ? "" : " x ") + rounded_text(unit::mm.from_si(size[axis]), 3);
+  return text + " mm";
+}
+
+std::string mm_text(double length) { return rounded_text(unit::mm.from_si(length), 3) + " mm"; }
+
+}  // namespace
+
+std::size_t step_through(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                         const Estimates& estimates) {
+  if (!touch.size.allFinite()) return 0;
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
+    if (const auto* indent = std::get_if<scenario::Indent>(&scenario.steps[i]))
+      if (!indent->to.second && (estimates.tissue_share * indent->to.value > through * touch.to_base ||
+                                 indent->to.value > touch.size.maxCoeff()))
+        return i + 1;
+  return 0;
+}
+
+void refuse_through(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                    const Estimates& estimates, const scenario::Family& family) {
+  const std::size_t step = step_through(scenario, touch, estimates);
+  if (step == 0) return;
+  const double to = std::get<scenario::Indent>(scenario.steps[step - 1]).to.value;
+  throw InputError(
+      place_of(family.document, "step." + std::to_string(step) + ".to"),
+      "`to` of " + quantity_text(to, unit::mm) +
+          (std::isfinite(touch.to_base)
+               ? " presses through the tissue, which is " + mm_text(touch.to_base) +
+                     " thick between the finger and what holds it"
+               : " is more than the length of the body, which is " + size_text(touch.size)) +
+          "; press less deep, or check the size of the body" + unit_text(scenario, touch));
+}
+
+std::vector<std::string> disproportions(const scenario::Resolved& scenario,
+                                        const SurfaceTouch& touch, const Estimates& estimates) {
+  std::vector<std::string> found;
+  if (!touch.size.allFinite()) return found;
+  const std::string units = unit_text(scenario, touch);
+  const double travel = estimates.tissue_share * estimates.travel;
+  if (travel > deep * touch.to_base)
+    found.push_back("the press takes " + percent_text(travel / touch.to_base) +
+                    " of the tissue, which is " + mm_text(touch.to_base) +
+                    " thick between the finger and what holds it: few tissues are tested at "
+                    "such strains; press less deep, or check the size of the body" +
+                    units);
+  const double width = touch.size.head<2>().minCoeff();
+  const double radius = scenario.finger.radius;
+  if (radius > width || estimates.contact_radius > 0.5 * width)
+    found.push_back("the finger of radius " + mm_text(radius) + " is wider than the body, which is " +
+                    size_text(touch.size) + ": it presses like a plate; check `finger.radius`" +
+                    units);
+  constexpr double longest = 2.0;  // m
+  if (!units.empty() && touch.size.maxCoeff() > longest)
+    found.push_back("the body is " + size_text(touch.size) + "; check its size" + units);
+  return found;
+}
+
+}  // namespace palpate::scene
