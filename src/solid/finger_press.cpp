@@ -420,14 +420,14 @@ std::optional<Answer> FingerPress::go(double travel) {
   return found;
 }
 
-// The finger's travel at the end of the curves: where the ball bears the tissue's last force, or the
-// tissue that of a ball that bears no more, m.
+// The finger's travel at the end of the curves: where the ball bears the tissue's last force, or
+// the tissue that of a ball that bears no more, m.
 double FingerPress::found_to() const {
   if (!order_.ball) return tissue_.reached;
   if (tissue_.points.empty() || ball_.points.empty())  // Hertz's shares
     return std::max(tissue_.reached / order_.share, ball_.reached / (1.0 - order_.share));
-  const Pairs tissue = of_tissue(tissue_);
-  const Pairs ball = of_ball();
+  const Pairs tissue = of_tissue(&Moment::force);
+  const Pairs ball = of_balls(tissue_.points.back().moment.touching);
   const double ball_end = ball_.reached / upright();
   if (ball_.end == End::open) {
     const double force = between(tissue, tissue_.reached, 1.5);
@@ -526,26 +526,44 @@ std::optional<std::pair<double, double>> FingerPress::snap() const {
   return range;
 }
 
-Pairs FingerPress::of_tissue(const Curve& tissue) {
+// On a half-space of the tissue at the surface, with its share of the curvatures of the gap.
+Moment FingerPress::by_hertz(double travel) const {
+  const tissue::Isotropic& tissue = tissue_at_top(press_->body());
+  const double modulus = tissue.young_modulus / (1.0 - tissue.poisson_ratio * tissue.poisson_ratio);
+  // Of the sphere with the same product of curvatures, nearly as an ellipse has it.
+  const double own = 1.0 / order_.radius;
+  const double radius =
+      1.0 / (order_.share * std::sqrt((own + order_.curvatures[0]) * (own + order_.curvatures[1])));
+  const double square = radius * travel;
+  const double force = 4.0 / 3.0 * modulus * std::sqrt(square) * travel;
+  return {force, std::sqrt(square), 1.5 * force / (std::numbers::pi * square), 1};
+}
+
+// A quantity over the tissue's travel. The elements are too large for a contact much smaller than
+// that of the first point: what size, base and layers change there fades with the contact radius.
+Pairs FingerPress::of_tissue(double Moment::*value) const {
   Pairs found;
-  // Every sphere in contact at the deepest bears its part.
-  const double spheres = std::max(1, tissue.points.back().moment.touching);
-  for (const Point& point : tissue.points) found.emplace_back(point.travel, point.force / spheres);
+  const Point& first = tissue_.points.front();
+  if (order_.smooth && !in_steps_) {
+    const double changed = first.moment.*value / (by_hertz(first.travel).*value);
+    for (const double part : {1.0 / 16.0, 1.0 / 4.0})
+      found.emplace_back(part * first.travel,
+                         by_hertz(part * first.travel).*value * std::pow(changed, std::sqrt(part)));
+  }
+  for (const Point& point : tissue_.points) found.emplace_back(point.travel, point.moment.*value);
   return found;
 }
 
-Pairs FingerPress::of_ball() const {
+Pairs FingerPress::of_balls(int number) const {
   Pairs found;
   for (const Point& point : ball_.points)
-    found.emplace_back(point.travel / upright(), point.force * upright());
+    found.emplace_back(point.travel / upright(), point.force * upright() * std::max(1, number));
   return found;
 }
 
-double FingerPress::shared(const Curve& curve, double travel, double power) const {
-  const Pairs tissue = of_tissue(curve);
-  const Pairs ball = of_ball();
+double FingerPress::shared(const Pairs& tissue, const Pairs& balls, double travel, double power) {
   return root(travel, [&](double own) {
-    return between(tissue, own, power) < between(ball, travel - own, 1.5);
+    return between(tissue, own, power) < between(balls, travel - own, 1.5);
   });
 }
 
@@ -558,7 +576,8 @@ double FingerPress::tissue_travel(double travel) {
     const Point& last = tissue_.points.back();
     press_ball(last.force / std::max(1, last.moment.touching));
     if (ball_.points.empty()) return expected;
-    const double own = shared(tissue_, travel, 1.5);
+    const double own =
+        shared(of_tissue(&Moment::force), of_balls(last.moment.touching), travel, 1.5);
     constexpr double straight = 1.05;
     if (ball_.end != End::open || own <= straight * tissue_.reached || !reach(own)) return own;
   }
@@ -574,16 +593,14 @@ std::optional<Moment> FingerPress::once(double travel, double power) {
     return std::nullopt;
   }
   if (!(answer->normal() > 0.0)) return Moment{};
-  Curve alone;
-  alone.points.push_back(
-      {own - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
+  const Pairs alone{{own - answer->lost, answer->normal()}};
   if (order_.ball) press_ball(answer->normal() / std::max(1, answer->touching));
   if (ball_.end != End::open) {
     reason_ = end_text();
     return std::nullopt;
   }
-  const double met = order_.ball ? shared(alone, travel, power) : own;
-  return moment_of(*answer, between({{own - answer->lost, answer->normal()}}, met, power));
+  const double met = order_.ball ? shared(alone, of_balls(answer->touching), travel, power) : own;
+  return moment_of(*answer, between(alone, met, power));
 }
 
 std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
@@ -603,19 +620,14 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
     return std::nullopt;
   }
   if (tissue_.points.empty()) return Moment{};
-  Pairs force;
-  Pairs radius;
-  Pairs pressure;
-  for (const Point& point : tissue_.points) {
-    force.emplace_back(point.travel, point.force);
-    radius.emplace_back(point.travel, point.moment.contact_radius);
-    pressure.emplace_back(point.travel, point.moment.peak_pressure);
-  }
   const auto nearest = std::find_if(tissue_.points.begin(), tissue_.points.end(),
                                     [&](const Point& point) { return point.travel >= own; });
   const Point& near = nearest == tissue_.points.end() ? tissue_.points.back() : *nearest;
-  return Moment{between(force, own, 1.5), between(radius, own, 0.5), between(pressure, own, 0.5),
-                near.moment.touching};
+  const auto now = [&](double Moment::*value, double power) {
+    return between(of_tissue(value), own, power);
+  };
+  return Moment{now(&Moment::force, 1.5), now(&Moment::contact_radius, 0.5),
+                now(&Moment::peak_pressure, 0.5), near.moment.touching};
 }
 
 std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, const Vec3& end,

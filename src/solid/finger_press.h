@@ -67,6 +67,7 @@ struct FingerOrder {
   double deepest = 0.0;  // m, travel of the finger
   Touch touch;
   std::array<double, 2> curvatures{};  // 1/m, of the body there along x and y, above 0 if convex
+  bool smooth = false;  // whether the body has these there, and one sphere touches it
   // The touch with the finger at a place beside it (m); nothing where it passes beside the body.
   std::function<std::optional<Touch>(const Vec3& place)> beside = {};
   std::string part = {};  // of a longer way, for the progress of the run
@@ -86,6 +87,7 @@ struct Moment {
 // Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
 // its points at a quarter and half of the deepest travel and there, or where a wall buckles at
 // every sixteenth, and the logarithm of the force is a parabola of that of the travel between them.
+// Below the first point the contact becomes Hertz's on the tissue at the surface.
 // An elastic finger is a ball of its own radius: each body takes its share of the curvature of the
 // gap between them, ball and tissue are pressed by the rigid surface between their shares, and
 // their travels at equal forces add.
@@ -138,8 +140,10 @@ class FingerPress {
     double reached = 0.0;  // m, travel at the last of them, with what is lost
     End end = End::open;
   };
-  [[nodiscard]] static Pairs of_tissue(const Curve& tissue);
-  [[nodiscard]] Pairs of_ball() const;
+  [[nodiscard]] Pairs of_tissue(double Moment::*value) const;
+  [[nodiscard]] Moment by_hertz(double travel) const;
+  // Of so many balls, of which each bears its part of the force.
+  [[nodiscard]] Pairs of_balls(int number) const;
   // Finds the curve of the tissue up to a travel of its own (m); false where it ends before.
   [[nodiscard]] bool reach(double travel);
   [[nodiscard]] double found_to() const;
@@ -156,10 +160,11 @@ class FingerPress {
   }
   void press_ball(double force);
   [[nodiscard]] double upright() const;
-  // The tissue's part of a travel with which both bodies have one force. A curve of one point goes
-  // on with `power`.
+  // The tissue's part of a travel with which both bodies have one force. Forces of one point go on
+  // with `power`.
   [[nodiscard]] double tissue_travel(double travel);
-  [[nodiscard]] double shared(const Curve& tissue, double travel, double power) const;
+  [[nodiscard]] static double shared(const Pairs& tissue, const Pairs& balls, double travel,
+                                     double power);
   // The force at one travel alone, with the exponent of the force there.
   [[nodiscard]] std::optional<Moment> once(double travel, double power);
 

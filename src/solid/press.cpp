@@ -244,27 +244,26 @@ constexpr double longest = 0.5;     // of the size: a step's largest change of d
 constexpr int most_steps = 40;
 constexpr int most_halvings = 5;
 
-double penalty(const Body& body) {
-  // By the tissue at the highest face that may be met.
+}  // namespace
+
+const tissue::Isotropic& tissue_at_top(const Body& body) {
   double top = -HUGE_VAL;
-  double modulus = 0.0;
+  int region = 0;
   for (const OuterFace& face : body.met) {
     const double z = body.mesh.nodes[as_index(face.nodes[0])].z();
     if (z <= top) continue;
     top = z;
-    modulus = body.tissues[as_index(body.mesh.regions[as_index(face.element)])].young_modulus;
+    region = body.mesh.regions[as_index(face.element)];
   }
-  return stiff * modulus / body.size;
+  return body.tissues[as_index(region)];
 }
-
-}  // namespace
 
 double Answer::normal() const { return std::accumulate(forces.begin(), forces.end(), 0.0); }
 
 Press::Press(Body body)
     : body_(std::move(body)),
       elements_(body_.mesh, body_.tissues, body_.held),
-      contact_(elements_, body_.met, penalty(body_)) {
+      contact_(elements_, body_.met, stiff * tissue_at_top(body_).young_modulus / body_.size) {
   Vector force;
   elements_.assemble(Vector::Zero(static_cast<Eigen::Index>(3 * body_.mesh.nodes.size())), force,
                      linear_);

@@ -118,6 +118,9 @@ struct Body {
   std::array<bool, 2> mirrored{};          // across x, across y
 };
 
+// That of the highest face that may be met.
+[[nodiscard]] const tissue::Isotropic& tissue_at_top(const Body& body);
+
 // The force on the finger at one place, of all copies.
 struct Answer {
   std::vector<double> forces;  // N, upwards, one per indenter

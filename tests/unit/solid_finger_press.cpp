@@ -54,6 +54,24 @@ TEST(FingerPress, HasTheForcesAndTheContrastOfTheWitness) {
   EXPECT_EQ(with.press().body().copies, 2);
 }
 
+// A contact that is smaller than an element. (It was 24 % too stiff, and a third too narrow.)
+TEST(FingerPress, ASmallContactIsHertzs) {
+  FingerOrder order = plain();
+  order.smooth = true;
+  FingerPress press(order);
+  const double modulus = 16.3e3 / (1.0 - 0.44 * 0.44);
+  for (const double travel : {1e-6, 10e-6}) {
+    const auto found = press.at_travel(travel);
+    ASSERT_TRUE(found);
+    const double force = contact::hertz::force(travel, order.radius, modulus);
+    const double radius = contact::hertz::contact_radius(travel, order.radius);
+    EXPECT_NEAR(found->force, force, 0.05 * force);
+    EXPECT_NEAR(found->contact_radius, radius, 0.03 * radius);
+    EXPECT_NEAR(found->peak_pressure, contact::hertz::peak_pressure(force, radius),
+                0.05 * found->peak_pressure);
+  }
+}
+
 TEST(FingerPress, IsOneCurveWhateverIsAskedFirst) {
   FingerPress up(plain());
   FingerPress down(plain());
