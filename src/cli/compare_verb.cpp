@@ -96,9 +96,9 @@ page::Markup first_table(std::vector<Told> differing, const Names& names) {
   record::Table table = table_of(differing, names);
   for (auto& row : table.rows) row.pop_back();  // `allowed` is below
   table.columns.pop_back();
-  return page::table("The value that differs most in each column, and by how much of that of " +
-                         names.want,
-                     table);
+  return page::table(
+      "The value that differs most in each column, and by how much of that of " + names.want,
+      table);
 }
 
 // All columns, file by file.
@@ -187,15 +187,14 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
                       .from_zero = y == "force_N"};
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (const bool wanted : {false, true})
-      figure.series.push_back(
-          {.csv_file = fs::absolute(wanted ? want : got).string(),
-           .case_name = cases[i][wanted ? 1 : 0],
-           .x_column = x,
-           .y_column = y,
-           .label = (same_case ? "" : cases[i][wanted ? 1 : 0] + ", ") +
-                    (wanted ? sides.want : sides.got),
-           .colour = 2 * i + (wanted ? 1 : 0),
-           .dashed = wanted});
+      figure.series.push_back({.csv_file = fs::absolute(wanted ? want : got).string(),
+                               .case_name = cases[i][wanted ? 1 : 0],
+                               .x_column = x,
+                               .y_column = y,
+                               .label = (same_case ? "" : cases[i][wanted ? 1 : 0] + ", ") +
+                                        (wanted ? sides.want : sides.got),
+                               .colour = 2 * i + (wanted ? 1 : 0),
+                               .dashed = wanted});
   return figure;
 }
 

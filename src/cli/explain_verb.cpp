@@ -292,9 +292,9 @@ class Explanation {
     const double inclined = degrees * std::acos(std::min(1.0, touch.curvature.normal.z()));
     constexpr double level = 0.01;  // degrees, and what does not count
     line("               at " + place_text(touch.position) +
-         (inclined < level ? ""
-                           : ", where the surface is inclined by " + rounded_text(inclined, 3) +
-                                 " degrees"));
+         (inclined < level
+              ? ""
+              : ", where the surface is inclined by " + rounded_text(inclined, 3) + " degrees"));
   }
 
   void regions() {

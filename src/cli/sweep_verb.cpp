@@ -114,8 +114,8 @@ std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResu
 // Writes sensitivity, maps, curves and the page beside the table. Returns notes on what could not
 // be computed; this is no failure of the merge.
 std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& command,
-                                 const sweep::SweepTotals& totals,
-                                 const sweep::SweepAnswer& answer, WholeFolder& folder) {
+                                 const sweep::SweepTotals& totals, const sweep::SweepAnswer& answer,
+                                 WholeFolder& folder) {
   const scenario::Family& family = plan.family;
   if (family.design.empty()) return {};
   const sweep::SweepColumns columns =

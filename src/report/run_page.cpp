@@ -397,8 +397,8 @@ Markup findings_by_case(const Records& records) {
         const auto found =
             std::find_if(record.findings.begin(), record.findings.end(),
                          [&](const record::Finding& finding) { return finding.name == name; });
-        const bool known = found != record.findings.end() &&
-                           !std::holds_alternative<std::monostate>(found->value);
+        const bool known =
+            found != record.findings.end() && !std::holds_alternative<std::monostate>(found->value);
         row.push_back(known ? record::Cell(finding_text(*found)) : record::Cell());
       }
       const bool empty = std::all_of(row.begin() + 1, row.end(), [](const record::Cell& cell) {
@@ -560,7 +560,7 @@ std::string loading_text(const scenario::Case& one) {
 }
 
 // What was tested, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a sphere of
-// radius 11 mm.`
+// radius 11 mm; underside fixed (bonded base).`
 std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
   const scenario::Tissue& tissue = one.scenario.tissue;
   std::string text = "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
@@ -574,6 +574,9 @@ std::string tested(const scenario::Case& one, const record::CaseRecord& record) 
   const double depth = finding_number(record, "peak_travel_mm");
   if (std::isfinite(depth))
     text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one);
+  const std::string& side = tissue.base_side;
+  if (!record.picture.base.empty())
+    text += "; " + (side.empty() ? "underside" : "side " + side) + " " + record.picture.base;
   return text + ".";
 }
 
@@ -657,13 +660,12 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
                folded);
   page.section("Warnings", warnings(records), folded);
-  page.section(
-      "Findings",
-      records.size() <= most_columns
-          ? findings_by_case(records)
-          : page::table_of_file("Every case", case_table(family, records), "findings.csv",
-                                most_rows),
-      folded);
+  page.section("Findings",
+               records.size() <= most_columns
+                   ? findings_by_case(records)
+                   : page::table_of_file("Every case", case_table(family, records), "findings.csv",
+                                         most_rows),
+               folded);
   page.section("Fits", fits(shown.fits), folded);
   page.section("Pressure maps", maps(records), folded);
   page.section("Scenario", asked(family, read_text(folder.file("scenario.toml"))), folded);

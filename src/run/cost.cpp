@@ -36,11 +36,10 @@ double expected_seconds(const std::vector<scene::Scene>& scenes) {
     const double before = processor_seconds();
     const record::CaseRecord record = run_case(scene);
     const double spent = processor_seconds() - before;
-    sum += record.outcome == record::Outcome::interrupted ? spent / share_done(scene, record)
-                                                          : spent;
+    sum +=
+        record.outcome == record::Outcome::interrupted ? spent / share_done(scene, record) : spent;
   }
-  return tried == 0 ? 0.0
-                    : sum / static_cast<double>(tried) * static_cast<double>(scenes.size());
+  return tried == 0 ? 0.0 : sum / static_cast<double>(tried) * static_cast<double>(scenes.size());
 }
 
 }  // namespace palpate::run

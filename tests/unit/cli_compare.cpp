@@ -92,8 +92,8 @@ TEST_F(CompareVerb, a_page_overlays_curves_of_other_names) {
   EXPECT_EQ(page.find("soft, want.csv"), std::string::npos) << "an empty curve";
 }
 
-// Both sides are called by what their folders differ in, results come first, at most eight, and what
-// no reader asks for is folded.
+// Both sides are called by what their folders differ in, results come first, at most eight, and
+// what no reader asks for is folded.
 TEST_F(CompareVerb, a_page_begins_with_the_results) {
   const auto write = [&](const std::string& side, int by) {
     const std::string end = std::to_string(by) + "\n";
@@ -115,9 +115,10 @@ TEST_F(CompareVerb, a_page_begins_with_the_results) {
   const std::string page = read_file(folder_ / "page.html");
   EXPECT_NE(page.find("<h1>press: a compared with b</h1>"), std::string::npos);
   EXPECT_NE(page.find("where it is 21 in a and 22 in b."), std::string::npos);
-  EXPECT_NE(page.find("Force (N) against displacement (mm) in force_indentation.csv: the line is a, "
-                      "the dashed one b."),
-            std::string::npos);
+  EXPECT_NE(
+      page.find("Force (N) against displacement (mm) in force_indentation.csv: the line is a, "
+                "the dashed one b."),
+      std::string::npos);
   const std::size_t from = page.find("id=\"what-differs\""),
                     to = page.find("id=\"all-columns-that-differ\"");
   ASSERT_LT(from, to);

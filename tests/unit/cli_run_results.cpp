@@ -79,9 +79,9 @@ TEST(OfACreepTest, the_page_begins_with_stress_times_and_viscous_law) {
                 .code,
             0);
   const std::string two = head_of(folder / "out/creep/report.html");
-  for (const char* part : {"<p>Creep under 0.5 kPa for 3 s, then recovery for 2 s.</p>",
-                           ">Kelvin-Voigt, retardation time 1 s</td>",
-                           ">Kelvin-Voigt, retardation time 2 s</td>"})
+  for (const char* part :
+       {"<p>Creep under 0.5 kPa for 3 s, then recovery for 2 s.</p>",
+        ">Kelvin-Voigt, retardation time 1 s</td>", ">Kelvin-Voigt, retardation time 2 s</td>"})
     EXPECT_NE(two.find(part), std::string::npos) << part << " is not in " << two;
 }
 
@@ -94,8 +94,7 @@ TEST(OfACurvedBody, what_is_not_known_is_not_zero) {
              "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n");
   const Ended ended = palpate(folder.path(), {"run", "round.toml"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  const record::Table table =
-      record::read_csv((folder / "out/round/findings.csv").string());
+  const record::Table table = record::read_csv((folder / "out/round/findings.csv").string());
   for (const char* name : {"thickness_effect", "side_effect", "body_effect", "deep_effect"}) {
     const int column = table.find(name);
     ASSERT_GE(column, 0) << name;
@@ -125,7 +124,8 @@ TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
   EXPECT_NE(headline.find(" N "), std::string::npos) << headline;
   EXPECT_NE(headline.find("%"), std::string::npos) << headline;
   const std::string page = read_file(result() / "report.html");
-  EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm."), std::string::npos);
+  EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm; underside fixed (bonded base)."),
+            std::string::npos);
   EXPECT_NE(ended_.err.find("\nIt took "), std::string::npos) << ended_.err;
 }
 

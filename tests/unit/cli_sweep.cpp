@@ -104,8 +104,9 @@ TEST_F(SweepVerb, MissingCasesAreRows) {
       "grid need all; run what is missing, narrow the ranges to where cases complete, or take "
       "`design = \"saltelli\"`\nError: "))
       << merge.err;
-  EXPECT_TRUE(merge.err.ends_with("out/s_sweep/merged: 2 of 6 cases completed, 4 missing (numbers "
-                                  "1,3-4,6); `palpate sweep run` runs them\n"))
+  EXPECT_TRUE(
+      merge.err.ends_with("out/s_sweep/merged: 2 of 6 cases completed, 4 missing (numbers "
+                          "1,3-4,6); `palpate sweep run` runs them\n"))
       << merge.err;
   const record::Table table =
       record::read_csv((folder_ / "out/s_sweep/merged/results.csv").string());

@@ -123,8 +123,8 @@ TEST(ScenePicture, has_numbers_along_the_axes_of_the_scenario) {
   EXPECT_GT(text_at("z (mm)").x(), 20.0);
 }
 
-// However an axis lies to the eye, its numbers do not run into each other: two neighbours are 1/25 of
-// the body's size apart on the page, and of an axis that is seen from its end there are fewer.
+// However an axis lies to the eye, its numbers do not run into each other: two neighbours are 1/25
+// of the body's size apart on the page, and of an axis that is seen from its end there are fewer.
 TEST(ScenePicture, numbers_of_an_axis_keep_apart) {
   std::size_t fewest = 100;
   for (int turn = 0; turn < 36; ++turn) {
