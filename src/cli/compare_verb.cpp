@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 // What the two results are called on the page.
 struct Names {
   std::string got, want;
+  std::string both = {};  // the last part of both paths, if it is the same
 };
 
 // Both paths without what they begin and end with in common, but for one part at least: `out/a` and
@@ -36,7 +37,8 @@ Names names_of(const Compare& command) {
     return all;
   };
   std::vector<std::string> got = parts(command.got), want = parts(command.want);
-  if (got == want) return {"got", "wanted"};
+  const std::string both = got.back() == want.back() ? got.back() : "";
+  if (got == want) return {"got", "wanted", both};
   while (got.size() > 1 && want.size() > 1 && got.back() == want.back()) {
     got.pop_back();
     want.pop_back();
@@ -45,7 +47,7 @@ Names names_of(const Compare& command) {
     got.erase(got.begin());
     want.erase(want.begin());
   }
-  return {joined(got, "/"), joined(want, "/")};
+  return {joined(got, "/"), joined(want, "/"), both};
 }
 
 // A column of a file and where its values differ most.
@@ -239,10 +241,9 @@ std::string cell_text(const record::Cell& cell) {
 void write_page(const Compare& command, const compare::FolderComparison& comparison,
                 const Talk& talk) {
   const Names names = names_of(command);
-  const std::string got = fs::path(command.got).filename().string();
-  const bool one_name = got == fs::path(command.want).filename().string();
-  page::Page page((one_name ? got + ": " : "") + names.got + " compared with " + names.want,
-                  "comparison");
+  page::Page page(
+      (names.both.empty() ? "" : names.both + ": ") + names.got + " compared with " + names.want,
+      "comparison");
   std::vector<Told> differing, agreeing;
   std::vector<std::string> alone;
   const compare::ColumnComparison* worst = nullptr;

@@ -112,9 +112,10 @@ Json model(const scene::Forecast& forecast) {
 }
 
 // One JSON object without line feeds: the plain sentences, the criteria, the models with their
-// errors, and what is neglected. Errors and changes are fractions; infinite numbers are null.
+// errors, what is neglected, and of a case alone the processor time of its run. Errors and changes
+// are fractions; infinite numbers are null.
 std::string explain_json(const std::string& scenario, const scene::Scene& scene,
-                         const run::Expected& expected) {
+                         const run::Expected& expected, std::optional<double> seconds) {
   Json object{{"event", "explanation"},
               {"scenario", scenario},
               {"case", scene.name},
@@ -147,6 +148,7 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
                       {"springs", scene.specimen->network.springs()}};
     if (expected.mesh_error) object["mesh"]["error"] = *expected.mesh_error;
   }
+  if (seconds) object["seconds"] = rounded(*seconds, 3);
   return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -471,34 +473,32 @@ scenario::Family read_or_outline(const std::string& path,
   return family;
 }
 
-// What the whole run costs; `set_up`: the processor time that the scenes took, s. Of more cases
-// than `run` takes, what `palpate sweep` costs.
-void tell_cost(const scenario::Family& family, const std::vector<scene::Scene>& scenes,
-               double set_up, const Talk& talk) {
+// The processor time of the whole run, s; `set_up`: what the scenes took of it. Of more cases than
+// `run` takes, what `palpate sweep` takes; nothing if a case of it fails.
+std::optional<double> cost_of(const scenario::Family& family,
+                              const std::vector<scene::Scene>& scenes, double set_up) {
   constexpr double figures = 0.1;  // s, about, of figures and files
-  double seconds = set_up + figures;
+  if (family.design.count() <= scenes.size())
+    return set_up + run::expected_seconds(scenes) + figures;
+  const std::optional<sweep::SweepForecast> cost = sweep::forecast(family, false);
+  return cost ? std::optional(cost->seconds) : std::nullopt;
+}
+
+void tell_cost(const scenario::Family& family, double seconds, const Talk& talk) {
   const std::size_t cases = std::max<std::size_t>(1, family.design.count());
-  if (cases > scenes.size()) {
-    const std::optional<sweep::SweepForecast> cost = sweep::forecast(family, false);
-    if (!cost) return;
-    seconds = cost->seconds;
-  } else {
-    seconds += run::expected_seconds(scenes);
-  }
   const double of_a_case = seconds / static_cast<double>(cases);
+  if (talk.json())
+    return talk.event("cost", {{"cases", cases},
+                               {"seconds", rounded(seconds, 3)},
+                               {"seconds_of_a_case", rounded(of_a_case, 3)}});
   const auto text = [](double time) {
     return time < 1.0    ? rounded_text(1e3 * time, 2) + " ms"
            : time < 60.0 ? rounded_text(time, 2) + " s"
                          : duration_text(time);
   };
-  if (talk.json())
-    talk.event("cost", {{"cases", cases},
-                        {"seconds", rounded(seconds, 3)},
-                        {"seconds_of_a_case", rounded(of_a_case, 3)}});
-  else
-    print("\nThe whole takes about " + text(seconds) + " of processor time" +
-          (cases == 1 ? ".\n"
-                      : ": " + std::to_string(cases) + " cases of " + text(of_a_case) + ".\n"));
+  print(
+      "\nThe whole takes about " + text(seconds) + " of processor time" +
+      (cases == 1 ? ".\n" : ": " + std::to_string(cases) + " cases of " + text(of_a_case) + ".\n"));
 }
 
 }  // namespace
@@ -532,13 +532,16 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
       draw(command.picture, scene, family.title,
            Explanation(scene, expected).text("", family.title));
     if (talk.json()) {
-      print(explain_json(family.name, scene, expected) + "\n");
+      const std::optional<double> seconds =
+          family.design.empty() ? cost_of(family, scenes, set_up) : std::nullopt;
+      print(explain_json(family.name, scene, expected, seconds) + "\n");
       continue;
     }
     if (!first) print("\n");
     print_text(explanation.text(family.design.count() > 1 ? scene.name : "", family.title));
   }
-  tell_cost(family, scenes, set_up, talk);
+  if (!talk.json() || !family.design.empty())
+    if (const auto seconds = cost_of(family, scenes, set_up)) tell_cost(family, *seconds, talk);
   if (command.subject != "-") talk.next("run", command.subject);
   return exit_good;
 }

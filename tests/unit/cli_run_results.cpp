@@ -89,7 +89,7 @@ TEST(OfACreepTest, the_page_begins_with_stress_times_and_viscous_law) {
 TEST(OfACurvedBody, what_is_not_known_is_not_zero) {
   const TemporaryFolder folder;
   write_file(folder / "round.toml",
-             "[tissue]\nshape = { kind = \"ellipsoid\", semi_axes = [\"30 mm\", \"25 mm\", \"20 "
+             "[tissue]\nshape = { kind = \"ellipsoid\", size = [\"60 mm\", \"50 mm\", \"40 "
              "mm\"] }\n[solver]\nmodel = \"hertz\"\n[contact]\ncoupling = \"one_way\"\n"
              "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n");
   const Ended ended = palpate(folder.path(), {"run", "round.toml"});
