@@ -37,7 +37,7 @@ figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
 figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
-  #scene-still text { font-size: 1.8em; } #scene-still .odd { display: none; } .wide td { overflow-wrap: anywhere; } }
+  #scene-still text { font-size: 1.8em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
 .white { background: #ffffff; border-radius: .4rem; max-width: 44rem; }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }

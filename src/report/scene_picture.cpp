@@ -282,11 +282,18 @@ std::string lines(const std::vector<std::array<Vec3, 2>>& edges, const View& vie
 // The edges of the box, behind the body, with the numbers along its axes.
 std::string box(const SceneFrame& frame, const View& view) {
   std::string labels;
-  std::size_t number = 0;  // along its axis; a narrow page hides every second one
+  std::size_t number = 0;  // along its axis
   for (const SceneLabel& one : frame.labels) {
     const Point at = view(one.at);
-    labels += label({at.x, at.y + 4.0}, number % 2 == 1 ? " class=\"odd\"" : "", one.text);
-    number = one.text.ends_with("(mm)") ? 0 : number + 1;
+    const std::size_t unit = one.text.find(" (mm)");
+    const bool name = unit != std::string::npos;
+    // A narrow page, whose letters are larger, hides the unit and every second number.
+    const std::string more = " class=\"more\"";
+    std::string text =
+        label({at.x, at.y + 4.0}, !name && number % 2 == 1 ? more : "", one.text.substr(0, unit));
+    if (name) text.insert(text.rfind("</text>"), "<tspan" + more + "> (mm)</tspan>");
+    labels += text;
+    number = name ? 0 : number + 1;
   }
   return lines(frame.lines, view, " stroke=\"#9aa3ad\" stroke-width=\"0.8\"") +
          "<g font-size=\"12\" fill=\"#444\" text-anchor=\"middle\">\n" + labels + "</g>\n";

@@ -163,6 +163,17 @@ TEST(ScenePicture, numbers_of_an_axis_keep_apart) {
   EXPECT_LT(fewest, 3U) << "no axis of these was seen from its end";
 }
 
+// A narrow page, where letters are larger beside the body, hides every second number and the unit.
+TEST(ScenePicture, every_second_number_of_an_axis_can_be_hidden) {
+  const std::string svg = scene_svg(flat(), "");  // x and y 0 to 20 mm
+  for (const char* shown : {">0<", ">10<", ">20<", ">x<", ">y<"}) {
+    EXPECT_GT(occurrences(svg, shown), 0U) << shown;
+    EXPECT_EQ(occurrences(svg, std::string(" class=\"more\"") + shown), 0U) << shown;
+  }
+  for (const char* hidden : {">5<", ">15<", "> (mm)<"})
+    EXPECT_EQ(occurrences(svg, std::string(" class=\"more\"") + hidden), 2U) << hidden;
+}
+
 // The number beside the arrow stays readable where it stands before the body.
 TEST(ScenePicture, the_depth_has_a_white_border) {
   const std::string svg = scene_svg(flat(), "");
