@@ -39,6 +39,10 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   for (const char* line : {"<p>Least in case ", "<p>Model: hertz in 6 of 6 cases.</p>",
                            "<p>Neglected in 6 of 6 cases", "<p>6 of 6 cases completed, 0 failed"})
     EXPECT_NE(read_file(page).find(line), std::string::npos) << line;
+  const std::string picture = "picture: <a href=\"";
+  EXPECT_LT(read_file(page).find(picture + "response_peak_force_N.svg"),
+            read_file(page).find(picture + "sensitivity.svg"))
+      << "the result comes first";
   const record::Table table =
       record::read_csv((folder_ / "out/s_sweep/merged/results.csv").string());
   EXPECT_EQ(table.rows.size(), 6U);
