@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "base/field_writer.h"
+#include "base/plausible_unit.h"
 #include "base/text.h"
 
 namespace palpate {
@@ -293,7 +294,8 @@ class Reader final : public FieldVisitor {
       const bool usable = node.is_number() && std::isfinite(node.number);
       const std::string digits = usable ? number_text(node.number) : "1";
       wrong_type(key, node, std::string("a ") + unit.quantity + " with its unit, as text",
-                 "\"" + digits + " " + unit.symbol + "\"");
+                 "\"" + digits + " " +
+                     std::string(plausible_unit(usable ? node.number : 1.0, unit.symbol)) + "\"");
       return false;
     }
     try {

@@ -170,6 +170,12 @@ std::string capitalized(std::string text) {
   return text;
 }
 
+std::string within_sentence(std::string label) {
+  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
+  if (label.size() > 1 && small(label[1])) label[0] = lower_case(label.substr(0, 1))[0];
+  return label;
+}
+
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};

@@ -61,6 +61,8 @@ struct LeadingNumber {
 // With a capital first letter, but for a name such as `tissue.young_modulus`, `mass_spring` or the
 // parameter of `a, logarithmic fit`.
 [[nodiscard]] std::string capitalized(std::string text);
+// A label as part of a sentence: with a small first letter if the first word is one.
+[[nodiscard]] std::string within_sentence(std::string label);
 [[nodiscard]] std::string trimmed(std::string_view text);
 [[nodiscard]] std::string joined(std::span<const std::string> words, std::string_view separator);
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);

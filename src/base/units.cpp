@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/plausible_unit.h"
 #include "base/text.h"
 #include "base/unit_factor.h"
 
@@ -317,7 +318,9 @@ double parse_quantity(std::string_view given, const Unit& wanted) {
   const auto parsed = parse_unit(unit_text);
   if (!parsed || !(parsed->dimension == wanted.dimension)) {
     const std::string digits = text.substr(0, text.size() - number->rest.size());
-    const std::string remedy = "; write it as `" + digits + " " + wanted.symbol + "`";
+    const std::string_view meant =
+        unit_text.empty() ? plausible_unit(number->value, wanted.symbol) : wanted.symbol;
+    const std::string remedy = "; write it as `" + digits + " " + std::string(meant) + "`";
     if (unit_text.empty()) refuse(wanted, " with its unit" + got() + remedy);
     if (parsed) refuse(wanted, got() + ", " + dimension_name(parsed->dimension) + remedy);
     for (const auto& scale_of : {foreign_scale, mass_scale})

@@ -14,42 +14,105 @@
 #include "page/page.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
+#include "sweep/labels.h"
 
 namespace palpate::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The columns of a file that differ, or those that agree, each with its worst row.
-page::Markup table_of(const compare::FileComparison& file, bool differing) {
-  record::Table table{{"column", "got", "wanted", "relative", "allowed", "rows", "where"}, {}};
-  for (const compare::ColumnComparison& column : file.comparison.columns) {
-    if (column.equal() == differing) continue;
+// What the two results are called on the page.
+struct Names {
+  std::string got, want;
+  std::string both = {};  // the last part of both paths, if it is the same
+};
+
+// Both paths without what they begin and end with in common, but for one part at least: `out/a` and
+// `golden/a` are `out` and `golden`. Equal paths are `got` and `wanted`.
+Names names_of(const Compare& command) {
+  const auto parts = [](const std::string& path) {
+    std::vector<std::string> all;
+    for (const fs::path& part : fs::absolute(path).lexically_normal())
+      if (!part.empty()) all.push_back(part.string());
+    return all;
+  };
+  std::vector<std::string> got = parts(command.got), want = parts(command.want);
+  const std::string both = got.back() == want.back() ? got.back() : "";
+  if (got == want) return {"got", "wanted", both};
+  while (got.size() > 1 && want.size() > 1 && got.back() == want.back()) {
+    got.pop_back();
+    want.pop_back();
+  }
+  while (got.size() > 1 && want.size() > 1 && got.front() == want.front()) {
+    got.erase(got.begin());
+    want.erase(want.begin());
+  }
+  return {joined(got, "/"), joined(want, "/"), both};
+}
+
+// A column of a file and where its values differ most.
+struct Told {
+  std::string file;
+  const compare::ColumnComparison* column = nullptr;
+};
+
+std::string where_text(const compare::ColumnComparison& column) {
+  if (!column.worst) return compare::verdict_text(column);
+  const compare::WorstRow& worst = *column.worst;
+  return "row " + std::to_string(worst.row) +
+         (worst.case_name.empty() ? "" : ", case " + worst.case_name);
+}
+
+record::Table table_of(const std::vector<Told>& told, const Names& names) {
+  record::Table table{
+      {"column", names.got, names.want, "difference", "where most", "rows", "allowed"}, {}};
+  for (const Told& one : told) {
+    const compare::ColumnComparison& column = *one.column;
     std::vector<record::Cell> row(table.columns.size());
     row[0] = column.name;
-    if (!column.worst) {
-      row[6] = compare::verdict_text(column);
-    } else {
-      const compare::WorstRow& worst = *column.worst;
-      row[1] = worst.got;
-      row[2] = worst.want;
-      row[3] = worst.relative;
-      row[4] = worst.allowed;
+    row[4] = where_text(column);
+    if (column.worst) {
+      row[1] = column.worst->got;
+      row[2] = column.worst->want;
+      if (std::isfinite(column.worst->relative)) row[3] = percent_text(column.worst->relative);
       row[5] = static_cast<double>(column.differing);
-      row[6] = "row " + std::to_string(worst.row) +
-               (worst.case_name.empty() ? "" : ", case " + worst.case_name);
+      row[6] = column.worst->allowed;
     }
-    table.rows.push_back(row);
+    table.rows.push_back(std::move(row));
   }
-  if (differing && !file.comparison.rows_equal())
-    table.rows.push_back({"rows",
-                          static_cast<double>(file.comparison.rows_got),
-                          static_cast<double>(file.comparison.rows_want),
-                          {},
-                          {},
-                          {},
-                          {}});
-  return table.rows.empty() ? page::Markup() : page::table(file.file, table);
+  return table;
+}
+
+// The results that differ, at most eight; of files without results, the first columns.
+page::Markup first_table(std::vector<Told> differing, const Names& names) {
+  constexpr std::size_t most = 8;
+  const auto rank = [](const Told& one) { return compare::rank_of(*one.column); };
+  std::stable_sort(differing.begin(), differing.end(),
+                   [&](const Told& a, const Told& b) { return rank(a) < rank(b); });
+  const auto rest = std::find_if(differing.begin(), differing.end(), [&](const Told& one) {
+    return rank(one) > compare::last_result_rank;
+  });
+  if (rest != differing.begin()) differing.erase(rest, differing.end());
+  if (differing.size() > most) differing.resize(most);
+  if (differing.empty()) return {};
+  record::Table table = table_of(differing, names);
+  for (auto& row : table.rows) row.pop_back();  // `allowed` is below
+  table.columns.pop_back();
+  return page::table(
+      "The value that differs most in each column, and by how much of that of " + names.want,
+      table);
+}
+
+// All columns, file by file.
+page::Markup all_tables(const std::vector<Told>& told, const Names& names) {
+  page::Markup all;
+  for (std::size_t i = 0; i < told.size();) {
+    std::vector<Told> of_file;
+    const std::string file = told[i].file;
+    for (; i < told.size() && told[i].file == file; ++i) of_file.push_back(told[i]);
+    all += page::table(file, table_of(of_file, names));
+  }
+  return all;
 }
 
 // The column of a file that differs first by rank_of(); without a difference, the first curve.
@@ -84,13 +147,18 @@ std::vector<std::string> cases_of(const record::Table& table) {
   return cases;
 }
 
+// The label of an axis: `Displacement (mm)` of the column `travel_mm`.
+std::string axis_label(const std::string& column) {
+  return sweep::output_label(column == "travel_mm" ? "displacement_mm" : column);
+}
+
 // The curve of both results in one figure: what was got as a line, what is wanted dashed.
 std::optional<plot::Figure> overlay(const std::string& got, const std::string& want,
-                                    const compare::FileComparison& file) {
+                                    const compare::FileComparison& file, const Names& sides) {
   const record::Table left = record::read_csv(got), right = record::read_csv(want);
   const auto both = [&](const char* name) { return left.find(name) >= 0 && right.find(name) >= 0; };
   const compare::ColumnComparison* first = told_first(file);
-  std::string y = first != nullptr && compare::rank_of(*first) < 2 ? first->name : "";
+  std::string y = first != nullptr && !first->worst->x_name.empty() ? first->name : "";
   for (const char* curve : {"force_N", "strain", "stress_kPa"})
     if (y.empty() && both(curve)) y = curve;
   std::string x;
@@ -113,28 +181,28 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
   if (cases.empty())  // of other names: the first of both
     cases = {
         {names.empty() ? "" : names.front(), wanted_names.empty() ? "" : wanted_names.front()}};
+  const bool same_case = cases.size() == 1 && cases[0][0] == cases[0][1];
   plot::Figure figure{.name = "overlay",
                       .title = file.file,
-                      .x_label = x,
-                      .y_label = y,
+                      .x_label = axis_label(x),
+                      .y_label = axis_label(y),
                       .from_zero = y == "force_N"};
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (const bool wanted : {false, true})
-      figure.series.push_back(
-          {.csv_file = fs::absolute(wanted ? want : got).string(),
-           .case_name = cases[i][wanted ? 1 : 0],
-           .x_column = x,
-           .y_column = y,
-           .label = (cases[i][0].empty() ? "" : cases[i][wanted ? 1 : 0] + ", ") +
-                    (wanted ? "wanted" : "got"),
-           .colour = 2 * i + (wanted ? 1 : 0),
-           .dashed = wanted});
+      figure.series.push_back({.csv_file = fs::absolute(wanted ? want : got).string(),
+                               .case_name = cases[i][wanted ? 1 : 0],
+                               .x_column = x,
+                               .y_column = y,
+                               .label = (same_case ? "" : cases[i][wanted ? 1 : 0] + ", ") +
+                                        (wanted ? sides.want : sides.got),
+                               .colour = 2 * i + (wanted ? 1 : 0),
+                               .dashed = wanted});
   return figure;
 }
 
 // The overlays of all files, drawn in a folder beside the page that is gone afterwards.
 page::Markup overlays(const Compare& command, const compare::FolderComparison& comparison,
-                      const Talk& talk) {
+                      const Names& names, const Talk& talk) {
   const bool folders = fs::is_directory(command.want);
   const std::string folder = command.report + ".partial";
   page::Markup all;
@@ -143,14 +211,15 @@ page::Markup overlays(const Compare& command, const compare::FolderComparison& c
     const auto at = [&](const std::string& root) {
       return folders ? root + "/" + file.file : root;
     };
-    const auto figure = overlay(at(command.got), at(command.want), file);
+    const auto figure = overlay(at(command.got), at(command.want), file, names);
     if (!figure) continue;
     make_folders(folder);
     const plot::Drawing drawing = plot::draw(plot::sheet_of(*figure), folder);
     if (!drawing.warning.empty()) talk.warn(drawing.warning);
     const std::string caption =
-        figure->y_label + " against " + figure->x_label + " in " + file.file +
-        (file.equal() ? ": both agree." : ": the line was got, the dashed line is wanted.");
+        figure->y_label + " against " + within_sentence(figure->x_label) + " in " + file.file +
+        (file.equal() ? ": both agree."
+                      : ": the line is " + names.got + ", the dashed one " + names.want + ".");
     const fs::path picture = fs::path(folder) / "overlay.svg";
     if (fs::exists(picture)) {
       const page::Markup svg =
@@ -171,31 +240,30 @@ std::string cell_text(const record::Cell& cell) {
 
 void write_page(const Compare& command, const compare::FolderComparison& comparison,
                 const Talk& talk) {
-  const std::string got = fs::path(command.got).filename().string();
-  const std::string want = fs::path(command.want).filename().string();
-  page::Page page(got == want ? got + ", got and wanted" : got + " compared with " + want,
-                  "comparison");
-  page::Markup differing, agreeing;
+  const Names names = names_of(command);
+  page::Page page(
+      (names.both.empty() ? "" : names.both + ": ") + names.got + " compared with " + names.want,
+      "comparison");
+  std::vector<Told> differing, agreeing;
   std::vector<std::string> alone;
   const compare::ColumnComparison* worst = nullptr;
-  std::size_t columns = 0, all = 0;
   for (const compare::FileComparison& file : comparison.files) {
     if (file.state != compare::FileComparison::State::compared) {
       alone.push_back("`" + file.file + "`: " + compare::verdict_text(file.state));
       continue;
     }
-    differing += table_of(file, true);
-    agreeing += table_of(file, false);
+    if (!file.comparison.rows_equal())
+      alone.push_back("`" + file.file + "` has " + std::to_string(file.comparison.rows_got) +
+                      " rows in " + names.got + " and " +
+                      std::to_string(file.comparison.rows_want) + " in " + names.want);
+    for (const compare::ColumnComparison& column : file.comparison.columns)
+      (column.equal() ? agreeing : differing).push_back({file.file, &column});
     const compare::ColumnComparison* first = told_first(file);
     if (first != nullptr &&
         (worst == nullptr || compare::rank_of(*first) < compare::rank_of(*worst)))
       worst = first;
-    for (const compare::ColumnComparison& column : file.comparison.columns) {
-      ++all;
-      if (!column.equal()) ++columns;
-    }
   }
-  const std::string count = std::to_string(columns) + " of " + std::to_string(all) + " columns";
+  const std::size_t all = differing.size() + agreeing.size();
   if (comparison.equal()) {
     page.headline("Agrees", "in all " + std::to_string(all) + " columns");
   } else if (worst == nullptr) {
@@ -212,16 +280,20 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
                     "largest difference of " + worst->name);
     else
       page.headline("Differs", "in " + worst->name);
-    page.answer({count + " differ by more than the tolerances, `" + worst->name + "` in " +
-                 std::to_string(worst->differing) + " rows; most" +
+    page.answer({std::to_string(differing.size()) + " of " + std::to_string(all) +
+                 " columns differ by more than the tolerances, `" + worst->name + "` in " +
+                 std::to_string(worst->differing) + (worst->differing == 1 ? " row" : " rows") +
+                 "; most" +
                  (row.x_name.empty() ? "" : " at " + row.x_name + " " + cell_text(row.x)) +
-                 ", where " + cell_text(row.got) + " was got and " + cell_text(row.want) +
-                 " is wanted."});
+                 ", where it is " + cell_text(row.got) + " in " + names.got + " and " +
+                 cell_text(row.want) + " in " + names.want + "."});
   }
   page.answer(alone);
-  page.section("Curves", overlays(command, comparison, talk));
-  page.section("What differs", differing);
-  page.section("What agrees", agreeing, page::Page::Shown::folded);
+  page.section("Curves", overlays(command, comparison, names, talk));
+  page.section("What differs", first_table(differing, names));
+  constexpr auto folded = page::Page::Shown::folded;
+  page.section("All columns that differ", all_tables(differing, names), folded);
+  page.section("All columns that agree", all_tables(agreeing, names), folded);
   make_folders(fs::path(command.report).parent_path().string());
   write_atomically(command.report, page.html());
 }

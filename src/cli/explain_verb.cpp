@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/processor_time.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/program.h"
@@ -17,12 +18,14 @@
 #include "page/page.h"
 #include "report/scene_picture.h"
 #include "run/answer.h"
+#include "run/cost.h"
 #include "run/family.h"
 #include "run/picture.h"
 #include "scenario/direction.h"
 #include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/schema.h"
+#include "scenario/viscosity_text.h"
 #include "scenario/words.h"
 #include "scene/places.h"
 #include "scene/proportions.h"
@@ -110,9 +113,10 @@ Json model(const scene::Forecast& forecast) {
 }
 
 // One JSON object without line feeds: the plain sentences, the criteria, the models with their
-// errors, and what is neglected. Errors and changes are fractions; infinite numbers are null.
+// errors, what is neglected, and of a case alone the processor time of its run. Errors and changes
+// are fractions; infinite numbers are null.
 std::string explain_json(const std::string& scenario, const scene::Scene& scene,
-                         const run::Expected& expected) {
+                         const run::Expected& expected, std::optional<double> seconds) {
   Json object{{"event", "explanation"},
               {"scenario", scenario},
               {"case", scene.name},
@@ -145,6 +149,7 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
                       {"springs", scene.specimen->network.springs()}};
     if (expected.mesh_error) object["mesh"]["error"] = *expected.mesh_error;
   }
+  if (seconds) object["seconds"] = rounded(*seconds, 3);
   return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -187,28 +192,10 @@ class Explanation {
       line("  viscosity    not used");
       return;
     }
-    using tissue::Viscosity;
-    switch (tissue.viscosity) {
-      case Viscosity::none: line("  viscosity    none"); break;
-      case Viscosity::nodal_drag:
-        line("  viscosity    nodal drag, d/m " + quantity_text(tissue.law.drag, unit::per_second) +
-             "; its creep time grows with the specimen's length squared");
-        break;
-      case Viscosity::kelvin_voigt:
-        line("  viscosity    Kelvin-Voigt, retardation time " +
-             quantity_text(tissue.law.time, unit::s));
-        break;
-      case Viscosity::standard_linear_solid:
-        line("  viscosity    standard linear solid, relaxation time " +
-             quantity_text(tissue.law.longest_time(), unit::s) + ", E_0 / E_inf " +
-             number_text(tissue.law.instantaneous_ratio()));
-        break;
-      case Viscosity::prony:
-        for (const scenario::Branch& branch : tissue.branches)
-          line("  viscosity    Prony branch, relaxation time " +
-               quantity_text(branch.relaxation_time, unit::s) + ", ratio " +
-               number_text(branch.ratio));
-    }
+    line("  viscosity    " + scenario::viscosity_text(tissue) +
+         (tissue.viscosity == tissue::Viscosity::nodal_drag
+              ? "; its creep time grows with the specimen's length squared"
+              : ""));
     if (!scene_.scenario.uniform())
       line(
           scene_.relaxation.elastic()
@@ -286,9 +273,11 @@ class Explanation {
   // A place of the scene in the coordinates of the file.
   [[nodiscard]] std::string place_text(const Vec3& place) const {
     const Vec3 own = scene_.scenario.tissue.turn.transpose() * place;
+    const double rounding = 1e-9 * own.norm();
     std::string text;
     for (int axis = 0; axis < 3; ++axis)
-      text += (axis == 0 ? "(" : ", ") + rounded_text(unit::mm.from_si(own[axis]));
+      text += (axis == 0 ? "(" : ", ") +
+              rounded_text(std::abs(own[axis]) < rounding ? 0.0 : unit::mm.from_si(own[axis]));
     return text + ") mm";
   }
 
@@ -307,9 +296,12 @@ class Explanation {
          rounded_text(touch.curvature.kappa_2) + " 1/m, positive if convex");
     if (!touch.size.allFinite()) return;
     constexpr double degrees = 180.0 / std::numbers::pi;
-    line("               at " + place_text(touch.position) + ", where the surface is inclined by " +
-         rounded_text(degrees * std::acos(std::min(1.0, touch.curvature.normal.z())), 3) +
-         " degrees");
+    const double inclined = degrees * std::acos(std::min(1.0, touch.curvature.normal.z()));
+    constexpr double level = 0.01;  // degrees, and what does not count
+    line("               at " + place_text(touch.position) +
+         (inclined < level
+              ? ""
+              : ", where the surface is inclined by " + rounded_text(inclined, 3) + " degrees"));
   }
 
   void regions() {
@@ -421,8 +413,7 @@ class Explanation {
                          scenario::traits(forecast.model).word;
       text.resize(22, ' ');
       line(text + (forecast.cannot.empty() ? "error " + error_text(forecast.known(mesh_error)) +
-                                                 (on_mesh ? " on this mesh, about " : ", about ") +
-                                                 rounded_text(forecast.seconds, 1) + " s to set up"
+                                                 (on_mesh ? " on this mesh" : "")
                                            : "cannot: " + forecast.cannot));
     }
     if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty())
@@ -487,20 +478,32 @@ scenario::Family read_or_outline(const std::string& path,
   return family;
 }
 
-// What the cases of a sweep cost.
-void tell_cost(const scenario::Family& family, const Talk& talk) {
+// The processor time of the whole run, s; `set_up`: what the scenes took of it. Of more cases than
+// `run` takes, what `palpate sweep` takes; nothing if a case of it fails.
+std::optional<double> cost_of(const scenario::Family& family,
+                              const std::vector<scene::Scene>& scenes, double set_up) {
+  constexpr double figures = 0.1;  // s, about, of figures and files
+  if (family.design.count() <= scenes.size())
+    return set_up + run::expected_seconds(scenes) + figures;
   const std::optional<sweep::SweepForecast> cost = sweep::forecast(family, false);
-  if (!cost) return;
-  const double of_a_case = cost->seconds / static_cast<double>(cost->cases);
+  return cost ? std::optional(cost->seconds) : std::nullopt;
+}
+
+void tell_cost(const scenario::Family& family, double seconds, const Talk& talk) {
+  const std::size_t cases = std::max<std::size_t>(1, family.design.count());
+  const double of_a_case = seconds / static_cast<double>(cases);
   if (talk.json())
-    talk.event("sweep", {{"cases", cost->cases},
-                         {"seconds", rounded(cost->seconds, 3)},
-                         {"seconds_of_a_case", rounded(of_a_case, 3)},
-                         {"row_bytes", rounded(cost->bytes, 3)}});
-  else
-    print("\nby `palpate sweep`: " + std::to_string(cost->cases) + " cases, " + cost->text() +
-          ", " + rounded_text(1e3 * of_a_case, 2) +
-          " ms a case; it computes neither maps nor pictures\n");
+    return talk.event("cost", {{"cases", cases},
+                               {"seconds", rounded(seconds, 3)},
+                               {"seconds_of_a_case", rounded(of_a_case, 3)}});
+  const auto text = [](double time) {
+    return time < 1.0    ? rounded_text(1e3 * time, 2) + " ms"
+           : time < 60.0 ? rounded_text(time, 2) + " s"
+                         : duration_text(time);
+  };
+  print(
+      "\nThe whole takes about " + text(seconds) + " of processor time" +
+      (cases == 1 ? ".\n" : ": " + std::to_string(cases) + " cases of " + text(of_a_case) + ".\n"));
 }
 
 }  // namespace
@@ -523,7 +526,9 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
                      "a picture is written as `.svg` or `.html`; give one of these endings");
   const scenario::Family family = read_or_outline(subject, command.settings);
   for (const Problem& note : family.notes) Talk::error("note: " + note.text());
+  const double start = processor_seconds();
   const std::vector<scene::Scene> scenes = run::build_all(family, 1);
+  const double set_up = processor_seconds() - start;
   for (const scene::Scene& scene : scenes) {
     const run::Expected expected = run::expect(scene);
     const bool first = &scene == &scenes.front();
@@ -532,13 +537,16 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
       draw(command.picture, scene, family.title,
            Explanation(scene, expected).text("", family.title));
     if (talk.json()) {
-      print(explain_json(family.name, scene, expected) + "\n");
+      const std::optional<double> seconds =
+          family.design.empty() ? cost_of(family, scenes, set_up) : std::nullopt;
+      print(explain_json(family.name, scene, expected, seconds) + "\n");
       continue;
     }
     if (!first) print("\n");
     print_text(explanation.text(family.design.count() > 1 ? scene.name : "", family.title));
   }
-  if (!family.design.empty()) tell_cost(family, talk);
+  if (!talk.json() || !family.design.empty())
+    if (const auto seconds = cost_of(family, scenes, set_up)) tell_cost(family, *seconds, talk);
   if (command.subject != "-") talk.next("run", command.subject);
   return exit_good;
 }

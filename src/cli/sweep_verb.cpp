@@ -114,7 +114,8 @@ std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResu
 // Writes sensitivity, maps, curves and the page beside the table. Returns notes on what could not
 // be computed; this is no failure of the merge.
 std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& command,
-                                 const sweep::SweepTotals& totals, WholeFolder& folder) {
+                                 const sweep::SweepTotals& totals, const sweep::SweepAnswer& answer,
+                                 WholeFolder& folder) {
   const scenario::Family& family = plan.family;
   if (family.design.empty()) return {};
   const sweep::SweepColumns columns =
@@ -129,6 +130,7 @@ std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& comm
     sweep::write_sweep_page(
         {.columns = columns,
          .found = found,
+         .answer = answer,
          .title = family.title,
          .totals = std::to_string(totals.completed) + " of " + cases_text(totals.cases) +
                    " completed, " + std::to_string(totals.diverged + totals.failed) + " failed, " +
@@ -164,10 +166,10 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
                      command.force ? Replace::any : Replace::incomplete, origin.digits());
   folder.refuse_what_is_there();
   folder.open();
-  sweep::merge_sweep(plan, results, totals, folder);
+  const sweep::SweepAnswer answer = sweep::merge_sweep(plan, results, totals, folder);
   const std::string undrawn =
       warn_all(folder.put(totals.missing == 0 ? State::complete : State::incomplete,
-                          look_at(plan, command, totals, folder)),
+                          look_at(plan, command, totals, answer, folder)),
                talk);
   std::string text = folder.path() + ": " + std::to_string(totals.completed) + " of " +
                      cases_text(totals.cases) + " completed";
@@ -176,6 +178,8 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   if (totals.missing > 0)
     text += ", " + std::to_string(totals.missing) + " missing (numbers " + totals.missing_numbers +
             "); `palpate sweep run` runs them";
+  if (const std::string error = answer.error(); !error.empty()) talk.say("Error: " + error + ".");
+  for (const std::string& line : answer.lines()) talk.say(line);
   talk.say(text + undrawn);
   talk.next("open", folder.path());
   talk.event("merged", {{"folder", folder.path()},

@@ -275,9 +275,16 @@ std::string rows_text(const Comparison& comparison) {
 }
 
 int rank_of(const ColumnComparison& column) {
-  if (!column.worst || column.worst->x_name.empty()) return 2;
   const std::array curves{"force_N", "strain", "stress_kPa"};
-  return std::find(curves.begin(), curves.end(), column.name) != curves.end() ? 0 : 1;
+  const bool of_curve = column.worst && !column.worst->x_name.empty();
+  if (of_curve && std::find(curves.begin(), curves.end(), column.name) != curves.end()) return 0;
+  if (of_curve) return 2;
+  const std::array results{"peak_", "force_at_", "secant_modulus_kPa", "elastic_strain",
+                           "creep_half_time_s"};
+  return std::any_of(results.begin(), results.end(),
+                     [&](const char* name) { return column.name.starts_with(name); })
+             ? 1
+             : 3;
 }
 
 bool ColumnComparison::equal() const {

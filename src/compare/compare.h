@@ -92,8 +92,10 @@ struct Comparison {
 [[nodiscard]] std::string rows_text(const Comparison& comparison);  // the numbers of rows differ
 
 // The order in which columns are told: first what a curve is drawn of, `force_N`, `strain` and
-// `stress_kPa` (0), then other columns of curves (1), then the rest (2).
+// `stress_kPa` (0), then its peak and other results of a case (1), then other columns of curves
+// (2), then the rest (3), such as the number of nodes or a balance.
 [[nodiscard]] int rank_of(const ColumnComparison& column);
+inline constexpr int last_result_rank = 2;
 
 // Whether two cells are identical; NaN equals NaN.
 [[nodiscard]] bool same(const record::Cell& got, const record::Cell& want);

@@ -37,7 +37,7 @@ figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
 figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
-  #scene-still text { font-size: 1.5em; } .wide td { overflow-wrap: anywhere; } }
+  #scene-still text { font-size: 1.8em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
 .white { background: #ffffff; border-radius: .4rem; max-width: 44rem; }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
@@ -55,7 +55,7 @@ summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; bor
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
 .cards figure div { max-height: 15rem; overflow: hidden; } .cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
-.whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .whole table { width: 100%; }
+.whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .result td:last-child { white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
   .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }

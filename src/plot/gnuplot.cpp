@@ -23,10 +23,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* was_not_drawn = " was not drawn in ";
 
-// What gnuplot says last, which is the reason; before it stand the script's line and warnings.
+// What gnuplot says last, which is the reason; before it stand the script's line and warnings. That
+// it widens the range about a curve of one value says nothing: the picture is complete.
 std::string last_line(const std::string& output) {
-  const std::string said = trimmed(output);
-  return said.substr(said.rfind('\n') + 1);
+  std::string last;
+  for (const std::string& line : split(output, '\n'))
+    if (!trimmed(line).empty() && line.find(" range [") == std::string::npos) last = trimmed(line);
+  return last;
 }
 
 // Why no picture was drawn, as the middle of a sentence; empty on success.

@@ -21,6 +21,9 @@
 #include "report/map_picture.h"
 #include "report/scene_picture.h"
 #include "scenario/family.h"
+#include "scenario/model_traits.h"
+#include "scenario/resolved.h"
+#include "scenario/viscosity_text.h"
 
 namespace palpate::report {
 namespace {
@@ -350,7 +353,7 @@ constexpr std::size_t most_rows = 200;
 constexpr std::size_t most_answers = 8;  // cases that the head of the page names
 
 std::string figure_words(const plot::Figure& figure) {
-  std::string words = figure.y_label + " against " + figure.x_label;
+  std::string words = figure.y_label + " against " + within_sentence(figure.x_label);
   if (figure.series.size() > 1) words += ", " + std::to_string(figure.series.size()) + " curves";
   if (figure.bar) words += "; the colour is " + figure.bar->label;
   if (figure.y_axis == plot::Axis::logarithmic)
@@ -371,9 +374,12 @@ Markup figures(const RunShown& shown, const WholeFolder& folder) {
   return page::figures(all, folder);
 }
 
-// One row per finding, one column per case.
+// One row per finding that is known, one column per case.
 Markup findings_by_case(const Records& records) {
   Markup all;
+  const bool frictionless = std::all_of(records.begin(), records.end(), [](const auto& record) {
+    return finding_number(record, "peak_friction_N") == 0.0;
+  });
   for (std::size_t group = 0; group < finding_groups().size(); ++group) {
     record::Table table{{"finding"}, {}};
     std::vector<std::string> names;
@@ -384,18 +390,23 @@ Markup findings_by_case(const Records& records) {
             std::find(names.begin(), names.end(), finding.name) == names.end())
           names.push_back(finding.name);
     }
-    if (names.empty()) continue;
     for (const std::string& name : names) {
+      if (frictionless && name.find("friction") != std::string::npos) continue;
       std::vector<record::Cell> row{words_of_finding(name).label};
       for (const record::CaseRecord& record : records) {
         const auto found =
             std::find_if(record.findings.begin(), record.findings.end(),
                          [&](const record::Finding& finding) { return finding.name == name; });
-        row.push_back(found == record.findings.end() ? record::Cell()
-                                                     : record::Cell(finding_text(*found)));
+        const bool known =
+            found != record.findings.end() && !std::holds_alternative<std::monostate>(found->value);
+        row.push_back(known ? record::Cell(finding_text(*found)) : record::Cell());
       }
-      table.rows.push_back(row);
+      const bool empty = std::all_of(row.begin() + 1, row.end(), [](const record::Cell& cell) {
+        return std::holds_alternative<std::monostate>(cell);
+      });
+      if (!empty) table.rows.push_back(row);
     }
+    if (table.rows.empty()) continue;
     const FindingGroup& words = finding_groups()[group];
     all += element("h3", words.heading) + page::table(std::string(words.sentence), table);
   }
@@ -503,17 +514,6 @@ std::string peak_error(const record::CaseRecord& record) {
   return *error > 1.0 ? error_text(*error) + " off" : "± " + percent_text(*error);
 }
 
-record::Table case_table(const Records& records) {
-  const auto peak = record::peak_of(records.front());
-  record::Table table{{"case", peak ? "peak " + peak->of : "peak", "error", "model", "neglected"},
-                      {}};
-  for (const record::CaseRecord& record : records)
-    table.rows.push_back({record.name, peak_text(record), peak_error(record),
-                          finding_word(record, "model"),
-                          first_statement(neglected(record.answer))});
-  return table;
-}
-
 // Why a case ended early, as a sentence.
 std::string early_end(const record::CaseRecord& record) {
   return record.reason + "; last stable time " + rounded_text(record.last_stable_time) + " s";
@@ -527,8 +527,40 @@ std::string finger_text(const scenario::Case& one) {
          " of radius " + rounded_text(unit::mm.from_si(finger.radius), 3) + " mm";
 }
 
+// The viscous law of a case between plates, for the model that ran.
+std::string viscosity_of(const scenario::Case& one, const record::CaseRecord& record) {
+  const std::string model = finding_word(record, "model");
+  for (const scenario::ModelTraits& traits : scenario::model_table)
+    if (traits.word == model)
+      return scenario::viscosity_text(scenario::resolve(one, traits.of).tissue);
+  return "";
+}
+
+// `Creep under 1 kPa for 5 s, then recovery for 5 s`, of a test between plates.
+std::string loading_text(const scenario::Case& one) {
+  std::string text;
+  for (const scenario::Step& step : one.scenario.steps) {
+    std::string words;
+    if (const auto* creep = std::get_if<scenario::Creep>(&step))
+      words = "creep under " + quantity_text(creep->stress, unit::kPa) + " for " +
+              quantity_text(creep->load_time, unit::s) + ", then recovery for " +
+              quantity_text(creep->recovery_time, unit::s);
+    if (const auto* relax = std::get_if<scenario::Relax>(&step))
+      words = "relaxation at a strain of " + percent_text(relax->strain) + " for " +
+              quantity_text(relax->time, unit::s);
+    if (const auto* compress = std::get_if<scenario::Compress>(&step))
+      words = "compression to a strain of " + percent_text(compress->strain) + " in " +
+              quantity_text(compress->ramp_time(), unit::s) +
+              (compress->hold_time > 0.0
+                   ? ", then held for " + quantity_text(compress->hold_time, unit::s)
+                   : "");
+    if (!words.empty()) text += (text.empty() ? "" : "; ") + words;
+  }
+  return capitalized(text);
+}
+
 // What was tested, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a sphere of
-// radius 11 mm.`
+// radius 11 mm; underside fixed (bonded base).`
 std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
   const scenario::Tissue& tissue = one.scenario.tissue;
   std::string text = "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
@@ -542,15 +574,38 @@ std::string tested(const scenario::Case& one, const record::CaseRecord& record) 
   const double depth = finding_number(record, "peak_travel_mm");
   if (std::isfinite(depth))
     text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one);
+  const std::string& side = tissue.base_side;
+  if (!record.picture.base.empty())
+    text += "; " + (side.empty() ? "underside" : "side " + side) + " " + record.picture.base;
   return text + ".";
 }
 
-// The finger of several cases, if it is the same in all.
-std::string common_finger(const scenario::Family& family) {
-  const std::string text = finger_text(family.cases.front());
+record::Table case_table(const scenario::Family& family, const Records& records) {
+  const auto peak = record::peak_of(records.front());
+  const bool uniform = family.base.uniform();
+  record::Table table{{"case", peak ? "peak " + peak->of : "peak", "error", "model", "neglected"},
+                      {}};
+  if (uniform) table.columns.insert(table.columns.end() - 1, "viscosity");
+  for (const record::CaseRecord& record : records) {
+    table.rows.push_back({record.name, peak_text(record), peak_error(record),
+                          finding_word(record, "model"),
+                          first_statement(neglected(record.answer))});
+    if (uniform)
+      table.rows.back().insert(table.rows.back().end() - 1,
+                               viscosity_of(scenario::case_named(family, record.name), record));
+  }
+  return table;
+}
+
+// The finger of several cases, or the loading between plates, if it is the same in all.
+std::string common_loading(const scenario::Family& family) {
+  const auto text_of = [&](const scenario::Case& one) {
+    return family.base.uniform() ? loading_text(one) : "Pressed by " + finger_text(one);
+  };
+  const std::string text = text_of(family.cases.front());
   const bool same = std::all_of(family.cases.begin(), family.cases.end(),
-                                [&](const auto& one) { return finger_text(one) == text; });
-  return same && !family.base.uniform() ? "Pressed by " + text + "." : "";
+                                [&](const auto& one) { return text_of(one) == text; });
+  return same && !text.empty() ? text + "." : "";
 }
 
 // One case: the force, its error, the model, and what is neglected; several: a table of the same.
@@ -563,8 +618,11 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     page.headline(peak ? "Peak " + peak->of + " " + peak_text(record) : "No result",
                   peak_error(record));
     if (!record.reason.empty()) page.answer({early_end(record)});
-    page.answer({tested(scenario::case_named(family, record.name), record),
-                 first_statement(answer.model), "Neglected: " + neglected(answer)});
+    const scenario::Case& one = scenario::case_named(family, record.name);
+    page.answer({tested(one, record)});
+    if (family.base.uniform())
+      page.answer({loading_text(one), "Viscosity: " + viscosity_of(one, record)});
+    page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
   } else if (!records.empty()) {
     std::vector<std::string> lines = answer_lines(records);
     std::erase(lines[1], '`');
@@ -574,10 +632,10 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     for (const record::CaseRecord& record : records)
       if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
     page.answer(said_once(ends));
-    if (const std::string finger = common_finger(family); !finger.empty()) page.answer({finger});
+    if (const std::string text = common_loading(family); !text.empty()) page.answer({text});
     if (records.size() <= most_answers)
-      page.answer(
-          element("div", page::table("Every case", case_table(records)), {{"class", "whole"}}));
+      page.answer(element("div", page::table("Every case", case_table(family, records)),
+                          {{"class", "whole"}}));
     else
       page.answer({first_statement(lines[0]), first_statement(lines[2])});
   }
@@ -603,12 +661,12 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
                folded);
   page.section("Warnings", warnings(records), folded);
-  page.section(
-      "Findings",
-      records.size() <= most_columns
-          ? findings_by_case(records)
-          : page::table_of_file("Every case", case_table(records), "findings.csv", most_rows),
-      folded);
+  page.section("Findings",
+               records.size() <= most_columns
+                   ? findings_by_case(records)
+                   : page::table_of_file("Every case", case_table(family, records), "findings.csv",
+                                         most_rows),
+               folded);
   page.section("Fits", fits(shown.fits), folded);
   page.section("Pressure maps", maps(records), folded);
   page.section("Scenario", asked(family, read_text(folder.file("scenario.toml"))), folded);

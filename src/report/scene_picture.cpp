@@ -282,12 +282,21 @@ std::string lines(const std::vector<std::array<Vec3, 2>>& edges, const View& vie
 // The edges of the box, behind the body, with the numbers along its axes.
 std::string box(const SceneFrame& frame, const View& view) {
   std::string labels;
+  std::size_t number = 0;  // along its axis
   for (const SceneLabel& one : frame.labels) {
     const Point at = view(one.at);
-    labels += label({at.x, at.y + 4.0}, "", one.text);
+    const std::size_t unit = one.text.find(" (mm)");
+    const bool name = unit != std::string::npos;
+    // A narrow page, whose letters are larger, hides the unit and every second number.
+    const std::string more = " class=\"more\"";
+    std::string text =
+        label({at.x, at.y + 4.0}, !name && number % 2 == 1 ? more : "", one.text.substr(0, unit));
+    if (name) text.insert(text.rfind("</text>"), "<tspan" + more + "> (mm)</tspan>");
+    labels += text;
+    number = name ? 0 : number + 1;
   }
   return lines(frame.lines, view, " stroke=\"#9aa3ad\" stroke-width=\"0.8\"") +
-         "<g font-size=\"11\" fill=\"#444\" text-anchor=\"middle\">\n" + labels + "</g>\n";
+         "<g font-size=\"12\" fill=\"#444\" text-anchor=\"middle\">\n" + labels + "</g>\n";
 }
 
 std::string legend(const ScenePicture& picture) {
@@ -298,7 +307,7 @@ std::string legend(const ScenePicture& picture) {
             "\" width=\"12\" height=\"12\" fill=\"" + hex(fill, 1.0) +
             "\" stroke=\"#777\" stroke-width=\"0.6\"/>\n" +
             label({margin + 19.0, y}, " stroke=\"none\"", words);
-    y += 20.0;
+    y += 24.0;
   };
   for (std::size_t i = 0; picture.materials.size() > 1 && i < picture.materials.size(); ++i)
     entry(colour(static_cast<int>(i)),

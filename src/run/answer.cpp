@@ -145,7 +145,8 @@ class Words {
     if (!std::isfinite(e_.thickness) && !thickness)
       return would + "far too low: the tissue is too thin for it.";
     // The largest of what it neglects.
-    const double size = 1.0 / (1.0 + (thickness ? e_.sides : e_.size)) - 1.0;
+    const double change = thickness ? e_.sides : e_.size;
+    const double size = 1.0 / (1.0 + change) - 1.0;
     const double waves = scene_.choice.found.inertia_matters ? e_.inertia : 0.0;
     const double deep = scene_.depth_ratio ? 0.0 : std::abs(e_.deep) + e_.deep_error;
     const double most = std::max({std::abs(size), waves, deep, e_.edge});
@@ -158,11 +159,12 @@ class Words {
     if (most == deep && deep > 0.0)
       return off + ": large strains change the force by " + (e_.depth_ratio ? "" : "up to ") +
              percent_text(deep) + ".";
-    return would + percent_text(std::abs(size)) + (size < 0.0 ? " low" : " high") + ": " +
+    return off + ": " +
            (thickness                       ? "the sides"
             : each_presses(scene_.scenario) ? "dents of the other spheres and size of the body"
                                             : "size, base and sides of the body") +
-           " change the force.";
+           (change < 0.0 ? " lower" : " raise") + " the force by " +
+           percent_text(std::abs(change)) + ".";
   }
 
   const scene::Scene& scene_;

@@ -71,7 +71,7 @@ constexpr auto question_table = std::to_array<QuestionRow>({
      "only a mesh with large strains knows the edge"},
     {"deep", "depth", "change of the force by large strains", "small strains are enough", ""},
     {"curved", "curvature", "difference between the two curvatures, finger included",
-     "one curvature is enough", "both curvatures matter, the contact is elliptic"},
+     "the contact is nearly circular", "both curvatures matter, the contact is elliptic"},
     {"time_dependent", "viscosity", "increase of the force by viscosity",
      "the press is slow against the tissue's time constant", ""},
     {"inertia", "inertia", "change of the force by inertia", "the loading is slow", ""},

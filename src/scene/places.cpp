@@ -27,8 +27,11 @@ std::string range_text(double low, double high) {
   const double far = std::max(std::abs(low), std::abs(high));
   const int more = high > low ? static_cast<int>(std::log10(far / (high - low))) : 0;
   const int digits = 4 + std::clamp(more, 0, 9);
-  return rounded_text(unit::mm.from_si(low), digits) + " to " +
-         rounded_text(unit::mm.from_si(high), digits);
+  const double rounding = 1e-9 * (high - low);
+  const auto text = [&](double end) {
+    return rounded_text(std::abs(end) < rounding ? 0.0 : unit::mm.from_si(end), digits);
+  };
+  return text(low) + " to " + text(high);
 }
 
 // What is wrong with a region of which `inside` lies in the body; both are named with their boxes.

@@ -53,15 +53,21 @@ class Merge {
   Merge(const SweepPlan& plan, const SweepResults& results, WholeFolder& folder)
       : plan_(plan), results_(results), folder_(folder) {}
 
-  void write() {
+  SweepAnswer write() {
+    SweepAnswer answer;
     for (const std::string& key : plan_.family.design.keys()) swept_.emplace_back(key);
     for_each_case(plan_, [&](std::size_t, std::vector<record::Cell>&& values) {
       for (std::size_t i = 0; i < swept_.size(); ++i) swept_[i].see(values[i]);
     });
-    for (std::size_t i = 0; i < plan_.count(); ++i)
-      if (results_.at(i).known()) found_.see(results_.row(i));
+    for (std::size_t i = 0; i < plan_.count(); ++i) {
+      if (!results_.at(i).known()) continue;
+      const SweepRow row = results_.row(i);
+      found_.see(row);
+      answer.see(row, i + 1);
+    }
     write_results();
     if (plan_.curves) write_curves();
+    return answer;
   }
 
  private:
@@ -155,10 +161,11 @@ SweepTotals count_results(const SweepPlan& plan, const SweepResults& results) {
   return totals;
 }
 
-void merge_sweep(const SweepPlan& plan, const SweepResults& results, const SweepTotals& totals,
-                 WholeFolder& folder) {
-  Merge(plan, results, folder).write();
+SweepAnswer merge_sweep(const SweepPlan& plan, const SweepResults& results,
+                        const SweepTotals& totals, WholeFolder& folder) {
+  SweepAnswer answer = Merge(plan, results, folder).write();
   folder.write("merged.json", merged_text(plan, totals, folder.files()));
+  return answer;
 }
 
 }  // namespace palpate::sweep

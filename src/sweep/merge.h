@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/whole_folder.h"
+#include "sweep/answer.h"
 #include "sweep/journal.h"
 #include "sweep/plan.h"
 
@@ -25,8 +26,9 @@ struct SweepTotals {
 // Writes results.csv, the curves of a plan with `--curves` (force_indentation.csv or
 // strain_time.csv) and merged.json into `folder`, which must be open. A case without a row gets a
 // row with the outcome `missing`. The bytes do not depend on parts, workers or the order in which
-// cases ran. Throws SystemError if a file cannot be written.
-void merge_sweep(const SweepPlan& plan, const SweepResults& results, const SweepTotals& totals,
-                 WholeFolder& folder);
+// cases ran. Returns what the completed cases say together. Throws SystemError if a file cannot be
+// written.
+SweepAnswer merge_sweep(const SweepPlan& plan, const SweepResults& results,
+                        const SweepTotals& totals, WholeFolder& folder);
 
 }  // namespace palpate::sweep

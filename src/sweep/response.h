@@ -8,6 +8,7 @@
 #include "plot/contours.h"
 #include "plot/gnuplot.h"
 #include "record/table.h"
+#include "sweep/answer.h"
 #include "sweep/columns.h"
 #include "sweep/sensitivity.h"
 
@@ -68,6 +69,7 @@ struct Response {
 struct SweepShown {
   const SweepColumns& columns;
   const Sensitivity& found;
+  const SweepAnswer& answer;
   std::string title;
   std::string totals;                 // a sentence: how many cases were completed
   std::string scenario;               // the text that was planned

@@ -106,7 +106,6 @@ std::vector<std::string> draw_sweep(const SweepColumns& columns, const Sensitivi
     folder.write("sensitivity.csv", record::csv_text(sweep::sensitivity_table(found)));
   if (!found.correlations.empty())
     folder.write("correlation.csv", record::csv_text(sweep::correlation_table(found)));
-  if (const auto sheet = sensitivity_sheet(found, title)) picture(*sheet);
   const bool grid = columns.kind == sweep::DesignKind::grid;
   if (!grid && !columns.outputs.empty())
     folder.write("sweep_points.csv", record::csv_text(scatter_table(columns)));
@@ -118,6 +117,7 @@ std::vector<std::string> draw_sweep(const SweepColumns& columns, const Sensitivi
       picture(response_sheet(*made));
     }
   }
+  if (const auto sheet = sensitivity_sheet(found, title)) picture(*sheet);
   return warnings;
 }
 

@@ -79,16 +79,15 @@ std::string figure_words(const std::string& name) {
 void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   const Sensitivity& found = shown.found;
   page::Page page(shown.title, "sweep");
-  std::vector<std::string> answer = sentences(shown.columns, found);
-  if (shown.columns.outputs.empty()) {
-    answer.push_back(shown.totals);
-  } else {
+  if (!shown.columns.outputs.empty()) {
     const OutputColumn& first = shown.columns.outputs.front();
-    page.headline(range_text(first), "(" + shown.totals.substr(0, shown.totals.rfind('.')) + ")");
+    page.headline(range_text(first), shown.answer.error());
     if (const std::string cases = extremes(shown.columns, first); !cases.empty())
-      answer.insert(answer.begin(), cases);
+      page.answer({cases});
   }
-  page.answer(answer);
+  page.answer(shown.answer.lines());
+  page.answer(sentences(shown.columns, found));
+  page.answer({shown.totals});
   page.section("Figures", page::all_figures(folder, figure_words));
   constexpr std::size_t most = 100;
   page::Markup tables;

@@ -43,6 +43,12 @@ TEST(Text, AnErrorAboveTheWholeHasNoDigits) {
   EXPECT_EQ(error_text(6.34), "more than 100 %");
 }
 
+TEST(Text, ALabelWithinASentenceBeginsSmallUnlessItIsASymbol) {
+  EXPECT_EQ(within_sentence("Displacement (mm)"), "displacement (mm)");
+  EXPECT_EQ(within_sentence("E (kPa)"), "E (kPa)");
+  EXPECT_EQ(within_sentence("tissue.young_modulus (kPa)"), "tissue.young_modulus (kPa)");
+}
+
 TEST(Text, ALeadingNumberEndsWhereItEnds) {
   EXPECT_EQ(leading_number("11 mm")->value, 11.0);
   EXPECT_EQ(leading_number("11 mm")->rest, " mm");

@@ -6,6 +6,10 @@
 namespace palpate::test {
 namespace {
 
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 class CompareVerb : public testing::Test {
  protected:
   Ended compare(const std::string& got, const std::string& want,
@@ -68,9 +72,9 @@ TEST_F(CompareVerb, a_page_overlays_the_curves) {
   EXPECT_EQ(ended.code, 3) << ended.err;
   const std::string page = read_file(folder_ / "page.html");
   EXPECT_EQ(headline_of(folder_ / "page.html"), "20 % largest difference of force_N");
-  const auto wanted = page.find("skin, wanted</text>");
+  const auto wanted = page.find(">want.csv</text>");
   ASSERT_NE(wanted, std::string::npos);
-  EXPECT_LT(page.find("skin, got</text>"), wanted);
+  EXPECT_LT(page.find(">got.csv</text>"), wanted);
   EXPECT_GT(page.find("stroke-dasharray"), wanted);
   EXPECT_NE(page.find("stroke-dasharray"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "page.html.partial"));
@@ -83,9 +87,48 @@ TEST_F(CompareVerb, a_page_overlays_curves_of_other_names) {
   EXPECT_EQ(
       palpate(folder_.path(), {"compare", "got.csv", "want.csv", "--report", "page.html"}).code, 3);
   const std::string page = read_file(folder_ / "page.html");
-  EXPECT_NE(page.find("soft, got</text>"), std::string::npos);
-  EXPECT_NE(page.find("hard, wanted</text>"), std::string::npos);
-  EXPECT_EQ(page.find("soft, wanted"), std::string::npos) << "an empty curve";
+  EXPECT_NE(page.find("soft, got.csv</text>"), std::string::npos);
+  EXPECT_NE(page.find("hard, want.csv</text>"), std::string::npos);
+  EXPECT_EQ(page.find("soft, want.csv"), std::string::npos) << "an empty curve";
+}
+
+// Both sides are called by what their folders differ in, results come first, at most eight, and
+// what no reader asks for is folded.
+TEST_F(CompareVerb, a_page_begins_with_the_results) {
+  const auto write = [&](const std::string& side, int by) {
+    const std::string end = std::to_string(by) + "\n";
+    std::string columns, values;
+    for (int i = 1; i <= 9; ++i) {
+      columns += ",peak_" + std::to_string(i) + "_N";
+      values += ",1" + std::to_string(by);
+    }
+    write_file(folder_ / side / "out/press/findings.csv",
+               "case,factorisations" + columns + "\nskin,1" + std::to_string(by) + values + "\n");
+    write_file(folder_ / side / "out/press/force_indentation.csv",
+               "case,time_s,travel_mm,force_N\nskin,0,0,0\nskin,1,1,2" + end);
+  };
+  write("a", 1);
+  write("b", 2);
+  const Ended ended = palpate(
+      folder_.path(), {"compare", "a/out/press", "./b/out/press/", "--report", "page.html"});
+  EXPECT_EQ(ended.code, 3) << ended.err;
+  const std::string page = read_file(folder_ / "page.html");
+  EXPECT_NE(page.find("<h1>press: a compared with b</h1>"), std::string::npos);
+  EXPECT_NE(page.find("where it is 21 in a and 22 in b."), std::string::npos);
+  EXPECT_NE(
+      page.find("Force (N) against displacement (mm) in force_indentation.csv: the line is a, "
+                "the dashed one b."),
+      std::string::npos);
+  const std::size_t from = page.find("id=\"what-differs\""),
+                    to = page.find("id=\"all-columns-that-differ\"");
+  ASSERT_LT(from, to);
+  const std::string first = page.substr(from, to - from);
+  EXPECT_LT(first.find(">force_N<"), first.find(">peak_1_N<"));
+  EXPECT_EQ(has(first, ">peak_7_N<"), true);
+  EXPECT_EQ(has(first, ">peak_8_N<"), false) << "the ninth";
+  EXPECT_EQ(has(first, "factorisations"), false);
+  EXPECT_EQ(has(page.substr(to), ">factorisations<"), true);
+  EXPECT_EQ(has(page.substr(to), ">peak_9_N<"), true);
 }
 
 TEST_F(CompareVerb, within_a_tolerance) {

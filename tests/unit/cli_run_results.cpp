@@ -88,6 +88,58 @@ TEST(ARunThatEndsEarly, keeps_its_curve_and_shows_no_force_where_there_is_none) 
   EXPECT_EQ(record::read_csv(folder / "none/thin/findings.csv").find("peak_force_N"), -1);
 }
 
+// What the first screen of a page says.
+std::string head_of(const fs::path& page) {
+  const std::string html = read_file(page);
+  return html.substr(0, html.find("</header>"));
+}
+
+TEST(OfACreepTest, the_page_begins_with_stress_times_and_viscous_law) {
+  const TemporaryFolder folder;
+  write_file(folder / "creep.toml",
+             "[tissue]\nmaterial = \"muscle\"\nviscosity = \"kelvin_voigt\"\n"
+             "retardation_time = \"0.5 s\"\n[[step]]\nkind = \"creep\"\nstress = \"0.5 kPa\"\n"
+             "load_time = \"3 s\"\nrecovery_time = \"2 s\"\n[output]\nfigures = false\n");
+  ASSERT_EQ(palpate(folder.path(), {"run", "creep.toml"}).code, 0);
+  const std::string one = head_of(folder / "out/creep/report.html");
+  for (const char* line : {"<p>Creep under 0.5 kPa for 3 s, then recovery for 2 s.</p>",
+                           "<p>Viscosity: Kelvin-Voigt, retardation time 0.5 s.</p>"})
+    EXPECT_NE(one.find(line), std::string::npos) << line << " is not in " << one;
+  ASSERT_EQ(palpate(folder.path(), {"run", "creep.toml", "--force", "--set",
+                                    "sweep.tissue.retardation_time=[\"1 s\", \"2 s\"]"})
+                .code,
+            0);
+  const std::string two = head_of(folder / "out/creep/report.html");
+  for (const char* part :
+       {"<p>Creep under 0.5 kPa for 3 s, then recovery for 2 s.</p>",
+        ">Kelvin-Voigt, retardation time 1 s</td>", ">Kelvin-Voigt, retardation time 2 s</td>"})
+    EXPECT_NE(two.find(part), std::string::npos) << part << " is not in " << two;
+}
+
+// What is not computed is an empty cell, and no line of the page.
+TEST(OfACurvedBody, what_is_not_known_is_not_zero) {
+  const TemporaryFolder folder;
+  write_file(folder / "round.toml",
+             "[tissue]\nshape = { kind = \"ellipsoid\", size = [\"60 mm\", \"50 mm\", \"40 "
+             "mm\"] }\n[solver]\nmodel = \"hertz\"\n[contact]\ncoupling = \"one_way\"\n"
+             "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n");
+  const Ended ended = palpate(folder.path(), {"run", "round.toml"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const record::Table table = record::read_csv((folder / "out/round/findings.csv").string());
+  for (const char* name : {"thickness_effect", "side_effect", "deep_effect"}) {
+    const int column = table.find(name);
+    ASSERT_GE(column, 0) << name;
+    EXPECT_EQ(table.rows.front()[static_cast<std::size_t>(column)], record::Cell()) << name;
+  }
+  EXPECT_EQ(number(table, 0, "edge_effect"), 0.0) << "known: no edge is near";
+  EXPECT_LT(number(table, 0, "body_effect"), 0.0) << "known from a coarse mesh";
+  const std::string page = read_file(folder / "out/round/report.html");
+  EXPECT_NE(page.find("bound of what a near edge changes"), std::string::npos);
+  for (const char* line : {"more force by the finite thickness", "change by free sides",
+                           "change by large depth", "force that friction allows"})
+    EXPECT_EQ(page.find(line), std::string::npos) << line;
+}
+
 TEST_F(OfAPress, has_all_its_files) {
   ASSERT_EQ(ended_.code, 0) << ended_.err;
   EXPECT_EQ(names_in(result()),
@@ -104,7 +156,8 @@ TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
   EXPECT_NE(headline.find(" N "), std::string::npos) << headline;
   EXPECT_NE(headline.find("%"), std::string::npos) << headline;
   const std::string page = read_file(result() / "report.html");
-  EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm."), std::string::npos);
+  EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm; underside fixed (bonded base)."),
+            std::string::npos);
   EXPECT_NE(ended_.err.find("\nIt took "), std::string::npos) << ended_.err;
 }
 

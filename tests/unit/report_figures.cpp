@@ -247,6 +247,24 @@ TEST_F(Gnuplot, WhatGnuplotSaysIsPassedOn) {
       << drawing.warning;
 }
 
+// A curve of one value is complete: that gnuplot widens its range is nothing to warn of.
+TEST_F(Gnuplot, AFlatCurveIsDrawnWithoutAWarning) {
+  write_atomically(folder_ + "/flat.csv", "x_mm,force_N\n1,0\n2,0\n3,0\n");
+  write_atomically(folder_ + "/one.csv", "x_mm,force_N\n1,0.84\n");
+  for (const char* file : {"flat.csv", "one.csv"})
+    for (const bool zero : {true, false}) {
+      const plot::Figure figure{
+          .name = "flat",
+          .x_label = "x",
+          .y_label = "y",
+          .from_zero = zero,
+          .series = {{.csv_file = file, .x_column = "x_mm", .y_column = "force_N"}}};
+      const plot::Drawing drawing = plot::draw(plot::sheet_of(figure), folder_);
+      EXPECT_EQ(drawing.warning, "") << file;
+      EXPECT_TRUE(fs::exists(folder_ + "/flat.svg"));
+    }
+}
+
 TEST_F(Gnuplot, TimeLimit) {
   const plot::Drawing drawing = plot::draw(plot::sheet_of(force_figure(folder_)), folder_,
                                            {.program = "gnuplot", .limit = 0});

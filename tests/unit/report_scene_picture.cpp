@@ -123,6 +123,67 @@ TEST(ScenePicture, has_numbers_along_the_axes_of_the_scenario) {
   EXPECT_GT(text_at("z (mm)").x(), 20.0);
 }
 
+// However an axis lies to the eye, its numbers do not run into each other: two neighbours are 1/25
+// of the body's size apart on the page, and of an axis that is seen from its end there are fewer.
+TEST(ScenePicture, numbers_of_an_axis_keep_apart) {
+  std::size_t fewest = 100;
+  for (int turn = 0; turn < 36; ++turn) {
+    ScenePicture picture = flat();
+    add_flat(picture, 0.01, 0, -1);
+    picture.axes = (Eigen::AngleAxisd(10.0 * turn * M_PI / 180.0, Vec3(1, 2, 3).normalized()) *
+                    Eigen::AngleAxisd(0.3 * turn, Vec3::UnitX()))
+                       .toRotationMatrix();
+    const SceneAngles angles = scene_angles(picture);
+    const double around = angles.around * M_PI / 180.0, tilt = angles.tilt * M_PI / 180.0;
+    const Vec3 right(std::cos(around), std::sin(around), 0.0);
+    const Vec3 up(-std::sin(tilt) * std::sin(around), std::sin(tilt) * std::cos(around),
+                  std::cos(tilt));
+    Vec3 low = Vec3::Constant(1.0), high = Vec3::Constant(-1.0);
+    for (const auto& face : picture.faces)
+      for (const Vec3& corner : face.corners) {
+        const Vec3 own = picture.axes.transpose() * corner;
+        low = low.cwiseMin(own);
+        high = high.cwiseMax(own);
+      }
+    const double size = (high - low).norm();
+    std::vector<Vec3> numbers;  // of one axis, before its name
+    for (const SceneLabel& one : scene_frame(picture).labels) {
+      if (one.text.find("mm") == std::string::npos) {
+        numbers.push_back(one.at);
+        continue;
+      }
+      for (std::size_t i = 1; i < numbers.size(); ++i) {
+        const Vec3 way = numbers[i] - numbers[i - 1];
+        EXPECT_GT(std::hypot(way.dot(right), way.dot(up)), 0.04 * size * (1.0 - 1e-9)) << turn;
+      }
+      fewest = std::min(fewest, numbers.size());
+      numbers.clear();
+    }
+  }
+  EXPECT_LT(fewest, 3U) << "no axis of these was seen from its end";
+}
+
+// A narrow page, where letters are larger beside the body, hides every second number and the unit.
+TEST(ScenePicture, every_second_number_of_an_axis_can_be_hidden) {
+  const std::string svg = scene_svg(flat(), "");  // x and y 0 to 20 mm
+  for (const char* shown : {">0<", ">10<", ">20<", ">x<", ">y<"}) {
+    EXPECT_GT(occurrences(svg, shown), 0U) << shown;
+    EXPECT_EQ(occurrences(svg, std::string(" class=\"more\"") + shown), 0U) << shown;
+  }
+  for (const char* hidden : {">5<", ">15<", "> (mm)<"})
+    EXPECT_EQ(occurrences(svg, std::string(" class=\"more\"") + hidden), 2U) << hidden;
+}
+
+// The number beside the arrow stays readable where it stands before the body.
+TEST(ScenePicture, the_depth_has_a_white_border) {
+  const std::string svg = scene_svg(flat(), "");
+  const std::size_t end = svg.find(">3 mm<"), begin = svg.rfind("<text", end);
+  ASSERT_NE(end, std::string::npos);
+  const std::string label = svg.substr(begin, end - begin);
+  for (const char* part : {"stroke=\"#fff\"", "stroke-width=\"3\"", "paint-order=\"stroke\""})
+    EXPECT_NE(label.find(part), std::string::npos) << part << " is missing in " << label;
+}
+
 TEST(ScenePicture, is_seen_from_where_the_finger_comes) {
   ScenePicture picture = flat();
   EXPECT_EQ(scene_angles(picture).around, 30.0);

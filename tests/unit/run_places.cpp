@@ -35,6 +35,11 @@ std::string refusal_of(const std::string& text) {
   return "no error";
 }
 
+TEST(Places, a_box_has_no_rounding_for_zero) {
+  EXPECT_EQ((Box{Vec3(-1.3e-18, -0.02, 0.0), Vec3(0.06, 1.3e-18, 0.03)}.text()),
+            "x 0 to 60, y -20 to 0, z 0 to 30 mm");
+}
+
 TEST(Places, the_part_of_a_ball_in_a_half_space_is_that_of_its_cap) {
   const geometry::Surface box =
       geometry::sampled(geometry::Cuboid{Vec3(1.0, 1.0, 1.0)}, {0.1, 0.1}).parts.front().surface;

@@ -125,6 +125,15 @@ TEST(Refusals, DimensionsAndUnits) {
       {"[tissue]\nyoung_modulus = 60\n",
        "press.toml:5:17: `young_modulus` wants a pressure with its unit, as text, got an integer "
        "`60`; write it as `young_modulus = \"60 kPa\"`"},
+      {"[tissue]\nyoung_modulus = 3000\n",
+       "press.toml:5:17: `young_modulus` wants a pressure with its unit, as text, got an integer "
+       "`3000`; write it as `young_modulus = \"3000 Pa\"`"},
+      {"[tissue]\nyoung_modulus = \"3000\"\n",
+       "press.toml:5:17: `young_modulus` wants a pressure with its unit, got `3000`; write it as "
+       "`3000 Pa`"},
+      {"[finger]\nradius = 0.011\n",
+       "press.toml:5:10: `radius` wants a length with its unit, as text, got a number `0.011`; "
+       "write it as `radius = \"0.011 m\"`"},
       {"[tissue]\nyoung_modulus = inf\n",
        "press.toml:5:17: `young_modulus` wants a pressure with its unit, as text, got a number "
        "`inf`; write it as `young_modulus = \"1 kPa\"`"},

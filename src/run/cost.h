@@ -1,0 +1,14 @@
+// What running scenes will take.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace palpate::run {
+
+// The processor time (s) of all cases after their set-up, from running some of them for up to about
+// three seconds. A case that is not finished then counts by the share of its loading history.
+[[nodiscard]] double expected_seconds(const std::vector<scene::Scene>& scenes);
+
+}  // namespace palpate::run
