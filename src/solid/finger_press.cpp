@@ -420,8 +420,8 @@ std::optional<Answer> FingerPress::go(double travel) {
   return found;
 }
 
-// The finger's travel at the end of the curves: where the ball bears the tissue's last force, or the
-// tissue that of a ball that bears no more, m.
+// The finger's travel at the end of the curves: where the ball bears the tissue's last force, or
+// the tissue that of a ball that bears no more, m.
 double FingerPress::found_to() const {
   if (!order_.ball) return tissue_.reached;
   if (tissue_.points.empty() || ball_.points.empty())  // Hertz's shares
