@@ -446,9 +446,10 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
             (cuts ? ", which cuts or touches it" : "");
   }
   surface = std::move(taken);
-  part = "part " + std::to_string(own) + " of " + std::to_string(count);
+  const std::string number = "part " + std::to_string(own) + " of " + std::to_string(count);
+  if (beside > 0) part = number;
   const bool near = (order.pressed || order.nearest > 0) && !wanted;
-  std::string text = part + " is taken" + (near ? ", the nearest to the finger" : "");
+  std::string text = number + " is taken" + (near ? ", the nearest to the finger" : "");
   if (hollows > 0)
     text +=
         std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;

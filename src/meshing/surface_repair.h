@@ -23,7 +23,7 @@ void check_closed(const geometry::Surface& surface, const std::string& name);
 struct WholeSurface {
   geometry::Surface surface;  // has passed check_closed()
   std::string warning;        // what was changed, with places and sizes; empty if nothing was
-  std::string part = {};      // `part 2 of 3`, of a surface with several; otherwise empty
+  std::string part = {};      // `part 2 of 3`, of a surface with others beside it; or empty
 };
 
 // What is asked of a surface from a file.
