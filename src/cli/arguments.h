@@ -133,9 +133,9 @@ struct Convert {
   std::vector<std::string> out;  // files; of results a folder; empty: none, of results this folder
   bool force = false;
   // Of bodies.
-  std::string unit;  // of a surface's or mesh's coordinates
-  int nodes = 0;     // 0: given by `edge`
-  std::string edge;  // empty: the mean edge of the surface's triangles
+  std::string unit;                    // of a surface's or mesh's coordinates
+  int nodes = 0;                       // 0: given by `edge`
+  std::string edge;                    // empty: the mean edge of the surface's triangles
   std::optional<double> repair_up_to;  // of a surface, as of a scenario's; empty: its default
   std::vector<std::string> settings;
   // Of results: a folder, or one of its CSV files.

@@ -165,9 +165,8 @@ geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
   if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
   meshing::RepairOrder order{.unit = command.unit};
   if (command.repair_up_to) order.most_missing = *command.repair_up_to;
-  auto [surface, mended, part] =
-      meshing::whole_surface(meshing::read_surface(command.subject, unit_of(command.unit)),
-                             command.subject, order);
+  auto [surface, mended, part] = meshing::whole_surface(
+      meshing::read_surface(command.subject, unit_of(command.unit)), command.subject, order);
   if (!mended.empty()) talk.say("note: " + mended);
   for (const std::string& out : command.out) {
     if (!is_surface_file(out)) continue;

@@ -220,8 +220,8 @@ class Explanation {
       line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
     if (!scene_.choice.touch.warning.empty()) line("  mended       " + scene_.choice.touch.warning);
     if (!scene_.scenario.uniform())
-      for (const std::string& sentence : scene::disproportions(
-               scene_.scenario, scene_.choice.touch, scene_.choice.expected))
+      for (const std::string& sentence :
+           scene::disproportions(scene_.scenario, scene_.choice.touch, scene_.choice.expected))
         line("  note         " + sentence);
     towards();
     if (scene_.scenario.finger.moved)

@@ -411,7 +411,10 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
     throw MeshError("surface `" + name + "`: has " + many(count, "part") + ", and `part` is " +
                     std::to_string(*wanted) + "; give one of them");
   if (count < 2) return "";
-  const int own = wanted ? *wanted : order.pressed ? nearest_part(parts, *order.pressed) : 1;
+  const int own = wanted              ? *wanted
+                  : order.nearest > 0 ? order.nearest
+                  : order.pressed     ? nearest_part(parts, *order.pressed)
+                                      : 1;
   std::vector<double> volumes;
   for (const geometry::Surface& part : parts) volumes.push_back(geometry::enclosed(part).volume);
   geometry::Surface taken;
@@ -443,8 +446,10 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
             (cuts ? ", which cuts or touches it" : "");
   }
   surface = std::move(taken);
-  part = "part " + std::to_string(own) + " of " + std::to_string(count);
-  std::string text = part + " is taken" + (order.pressed && !wanted ? ", the nearest to the finger" : "");
+  const std::string number = "part " + std::to_string(own) + " of " + std::to_string(count);
+  if (beside > 0) part = number;
+  const bool near = (order.pressed || order.nearest > 0) && !wanted;
+  std::string text = number + " is taken" + (near ? ", the nearest to the finger" : "");
   if (hollows > 0)
     text +=
         std::string(", with ") + (hollows == 1 ? "a cavity" : "cavities") + " in it: " + cavities;
@@ -456,15 +461,13 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
 
 }  // namespace
 
-WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
-                           const RepairOrder& order) {
+MendedSurface mended_surface(geometry::Surface surface, const std::string& name,
+                             const RepairOrder& order) {
   refuse_size(surface.vertices, "surface `" + name + "`", order.unit);
   std::string fault;
   try {
     check_closed(surface, name);
-    std::string part;
-    const std::string taken = choose_part(surface, name, order, part);
-    return {std::move(surface), taken.empty() ? "" : "of the surface " + name + ", " + taken, part};
+    return {.surface = std::move(surface), .sound = true};
   } catch (const MeshError& error) {
     if (!order.repair || surface.vertices.empty() || surface.triangles.empty()) throw;
     fault = error.what();
@@ -480,7 +483,6 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
     if (low[axis] == high[axis])
       throw MeshError("surface `" + name + "`: is a flat sheet: all its vertices have the same " +
                       "xyz"[axis] + "; give the whole surface of a body, around its inside");
-  WholeSurface whole;
   const int joined = join_near(surface);
   const ChildResult result =
       run_in_child([&] { return packed_mending(cgal_library::mended(surface)); }, mending_limits);
@@ -510,18 +512,41 @@ WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
     throw MeshError("surface `" + name + "`: triangles with " +
                     percent_text(made.crossing / made.area) +
                     " of its area cut others of the same part" + more(made.crossing / made.area));
-  whole.surface = std::move(made.surface);
+  return {.surface = std::move(made.surface),
+          .sound = false,
+          .changes = changes(made, joined),
+          .fault = fault};
+}
+
+int near_part(const MendedSurface& mended, const Vec3& place) {
+  const std::vector<geometry::Surface> parts = by_volume(mended.surface);
+  return parts.size() < 2 ? 0 : nearest_part(parts, place);
+}
+
+WholeSurface whole_part(const MendedSurface& mended, const std::string& name,
+                        const RepairOrder& order) {
+  WholeSurface whole{.surface = mended.surface, .warning = {}};
   const std::string taken = choose_part(whole.surface, name, order, whole.part);
+  if (mended.sound) {
+    if (!taken.empty()) whole.warning = "of the surface " + name + ", " + taken;
+    return whole;
+  }
+  const std::string& fault = mended.fault;
   try {
     check_closed(whole.surface, name);
   } catch (const MeshError& error) {
     throw MeshError(fault + (error.what() == fault ? "" : " (it could not be repaired by itself)"));
   }
-  const std::string changed = changes(made, joined);
+  const std::string& changed = mended.changes;
   whole.warning = "the surface of " + name + " was mended: " +
                   (changed.empty() && taken.empty() ? "all triangles turned outwards" : changed) +
                   (changed.empty() || taken.empty() ? "" : "; ") + taken;
   return whole;
+}
+
+WholeSurface whole_surface(geometry::Surface surface, const std::string& name,
+                           const RepairOrder& order) {
+  return whole_part(mended_surface(std::move(surface), name, order), name, order);
 }
 
 }  // namespace palpate::meshing

@@ -150,8 +150,8 @@ struct Peak {
 };
 [[nodiscard]] std::optional<Peak> peak_of(const CaseRecord& record);
 
-// How far the result of a case goes that ended early: `up to a displacement of 3.6 mm`, or to a time
-// where the finger was not pressing deeper; empty if nothing was computed.
+// How far the result of a case goes that ended early: `up to a displacement of 3.6 mm`, or to a
+// time where the finger was not pressing deeper; empty if nothing was computed.
 [[nodiscard]] std::string reached_text(const CaseRecord& record);
 
 // The tables of the CSV files, with the columns and units of docs/results.md.

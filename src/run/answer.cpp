@@ -220,8 +220,9 @@ record::Answer answer(const scene::Scene& scene, const record::CaseRecord& recor
   if (record.outcome == record::Outcome::completed)
     result += ", with " + words.error(error, effects) + ".";
   else
-    result += peak ? " " + record::reached_text(record) + ", where the run ended; no error is stated."
-                   : ": the run ended at its start.";
+    result +=
+        peak ? " " + record::reached_text(record) + ", where the run ended; no error is stated."
+             : ": the run ended at its start.";
   return {.model = words.model(),
           .error = result,
           .neglected = Words::neglected(effects, scene.scenario.solver.tolerance),

@@ -234,7 +234,8 @@ class Chooser {
     const bool formula = !beyond(Model::hertz, asked_, choice_.touch) ||
                          !beyond(Model::layer, asked_, choice_.touch);
     if (none || (!formula && scene::refines(asked_))) return;
-    if (scene::step_through(asked_, choice_.touch, choice_.expected) > 0) return;  // will be refused
+    if (scene::step_through(asked_, choice_.touch, choice_.expected) > 0)
+      return;  // will be refused
     Estimates& e = choice_.expected;
     // What free sides change fades with exp(-1.2 b/H) at least, the slowest of the fields in a
     // layer that is held below and free above: 0.8 % of it is left at four thicknesses.

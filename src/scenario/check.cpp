@@ -173,10 +173,13 @@ class Checker {
     const bool inclusions = std::any_of(
         scenario_.regions.begin(), scenario_.regions.end(),
         [](const Region& region) { return std::holds_alternative<Inclusion>(region.part); });
-    if (meshed && inclusions && !std::holds_alternative<Tetgen>(tissue.mesh))
+    if ((meshed || as_meshed) && inclusions && !std::holds_alternative<Tetgen>(tissue.mesh))
       problem("tissue.mesh",
-              "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
-              "kind = \"tetgen\", nodes = 1500 }`");
+              as_meshed ? "a ready mesh takes no `sphere` region; give its cells a group in the "
+                          "file and name it in a `tagged` region, or give the body's surface as "
+                          "`tissue.shape`"
+                        : "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
+                          "kind = \"tetgen\", nodes = 1500 }`");
     slabs();
     directions();
     const auto* tetgen = std::get_if<Tetgen>(&tissue.mesh);

@@ -21,6 +21,7 @@ struct Resolved : PlainScenario {
     // -z; and the direction in the scene away from the side that is held.
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     Vec3 base_up = Vec3::UnitZ();
+    int near_part = 0;  // of a file with several parts, which `finger.at` chooses; otherwise 0
 
     [[nodiscard]] bool held_from_below() const { return base_up.z() == 1.0; }
   };

@@ -266,9 +266,12 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
   Vec3 towards = direction_or(finger.towards, -up);
   Vec3 place = Vec3::Zero();
   if (finger.at.size() == 3 && !scenario.uniform()) {
+    place = Vec3(finger.at[0], finger.at[1], finger.at[2]);
+    const auto* file = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
+    if (file != nullptr && !file->part)
+      scenario.tissue.near_part = shapes.near_part(scenario, folder, place);
     const auto surface = unturned(scenario, folder, shapes);
     if (!surface) return;
-    place = Vec3(finger.at[0], finger.at[1], finger.at[2]);
     const geometry::SurfacePoint at = nearest_outside(surface->surface(), place);
     place = surface->position(at);
     if (finger.towards.empty()) towards = -surface->normal(at);

@@ -26,7 +26,7 @@ struct Box {
 // "in the file's coordinates", or "from the lowest corner of its box".
 [[nodiscard]] std::string coordinates_text(const scenario::Resolved& scenario);
 
-// Sets `tissue.turn`, `tissue.base_up` and, where the base is a group of faces,
+// Sets `tissue.turn`, `tissue.base_up`, `tissue.near_part` and, where the base is a group of faces,
 // `tissue.base_height`, and turns the scenario's places with the body: centres of inclusions, and
 // `finger.at`, which becomes `finger.x` and `finger.y`. Throws MeshError if a mesh that a place
 // depends on cannot be read, and for a group that is not all of the surface beyond a plane.

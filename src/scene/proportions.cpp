@@ -23,8 +23,8 @@ std::string unit_text(const scenario::Resolved& scenario, const SurfaceTouch& to
   const auto* mesh = std::get_if<scenario::MeshFile>(&scenario.tissue.mesh);
   const bool meshed = std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape);
   if (surface == nullptr && (mesh == nullptr || !meshed)) return "";
-  const std::string others = meshing::other_units(
-      touch.size.maxCoeff(), surface != nullptr ? surface->unit : mesh->unit);
+  const std::string others =
+      meshing::other_units(touch.size.maxCoeff(), surface != nullptr ? surface->unit : mesh->unit);
   return std::string(" and `unit` of `tissue.") + (surface != nullptr ? "shape`" : "mesh`") +
          (others.empty() ? "" : ": " + others);
 }
@@ -45,8 +45,9 @@ std::size_t step_through(const scenario::Resolved& scenario, const SurfaceTouch&
   if (!touch.size.allFinite()) return 0;
   for (std::size_t i = 0; i < scenario.steps.size(); ++i)
     if (const auto* indent = std::get_if<scenario::Indent>(&scenario.steps[i]))
-      if (!indent->to.second && (estimates.tissue_share * indent->to.value > through * touch.to_base ||
-                                 indent->to.value > touch.size.maxCoeff()))
+      if (!indent->to.second &&
+          (estimates.tissue_share * indent->to.value > through * touch.to_base ||
+           indent->to.value > touch.size.maxCoeff()))
         return i + 1;
   return 0;
 }
@@ -81,9 +82,9 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
   const double width = touch.size.head<2>().minCoeff();
   const double radius = scenario.finger.radius;
   if (radius > width || estimates.contact_radius > 0.5 * width)
-    found.push_back("the finger of radius " + mm_text(radius) + " is wider than the body, which is " +
-                    size_text(touch.size) + ": it presses like a plate; check `finger.radius`" +
-                    units);
+    found.push_back("the finger of radius " + mm_text(radius) +
+                    " is wider than the body, which is " + size_text(touch.size) +
+                    ": it presses like a plate; check `finger.radius`" + units);
   constexpr double longest = 2.0;  // m
   if (!units.empty() && touch.size.maxCoeff() > longest)
     found.push_back("the body is " + size_text(touch.size) + "; check its size" + units);

@@ -272,17 +272,30 @@ std::vector<geometry::Inclusion> inclusions_of(const Scenario& scenario) {
   return found;
 }
 
-meshing::WholeSurface surface_of(const Scenario& scenario, const std::string& folder) {
+namespace {
+
+meshing::RepairOrder order_of(const Scenario& scenario) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
-  meshing::RepairOrder order{.repair = file.repair,
-                             .most_missing = file.repair_up_to,
-                             .part = file.part,
-                             .pressed = {},
-                             .unit = file.unit};
-  if (const auto& at = scenario.finger.at; at.size() == 3 && !scenario.uniform())
-    order.pressed = Vec3(at[0], at[1], at[2]);
-  return meshing::whole_surface(
-      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file, order);
+  return {.repair = file.repair,
+          .most_missing = file.repair_up_to,
+          .part = file.part,
+          .pressed = {},
+          .nearest = scenario.tissue.near_part,
+          .unit = file.unit};
+}
+
+}  // namespace
+
+meshing::MendedSurface all_parts_of(const Scenario& scenario, const std::string& folder) {
+  const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
+  return meshing::mended_surface(
+      meshing::read_surface(path_in(folder, file.file), metres_per(file.unit)), file.file,
+      order_of(scenario));
+}
+
+meshing::WholeSurface part_of(const meshing::MendedSurface& all, const Scenario& scenario) {
+  return meshing::whole_part(all, std::get<scenario::SurfaceFile>(scenario.tissue.shape).file,
+                             order_of(scenario));
 }
 
 meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {

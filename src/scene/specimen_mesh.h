@@ -29,10 +29,14 @@ namespace palpate::scene {
 // a hundredth of an inclusion before it.
 void refuse_covered_inclusions(const scenario::Resolved& scenario);
 
-// The surface from the scenario's file, not turned. Throws InputError if it cannot be read,
-// MeshError if it bounds no body.
-[[nodiscard]] meshing::WholeSurface surface_of(const scenario::Resolved& scenario,
-                                               const std::string& folder);
+// All parts of the surface from the scenario's file, not turned. Throws InputError if it cannot be
+// read, MeshError if it bounds no body.
+[[nodiscard]] meshing::MendedSurface all_parts_of(const scenario::Resolved& scenario,
+                                                  const std::string& folder);
+
+// The part of them that the scenario presses, or MeshError.
+[[nodiscard]] meshing::WholeSurface part_of(const meshing::MendedSurface& all,
+                                            const scenario::Resolved& scenario);
 
 // The mesh from the scenario's file, not turned, with the file's numbers of regions. Throws
 // InputError if it cannot be read, MeshError for a size that no body has.

@@ -105,14 +105,15 @@ std::string shape_key(const Scenario& scenario) {
   }
   only.solver.model = scenario::strongest.of;  // has a mesh, and reads all keys of shape and mesh
   // A uniform test turns shapes to stand on their ends.
-  only.tissue.base_side = scenario.tissue.base_side;
-  only.finger.at = scenario.finger.at;
-  only.finger.towards = scenario.finger.towards;
   if (scenario.uniform())
     only.steps.emplace_back(scenario::Creep{});
   else
     only.steps.emplace_back(scenario::Indent{});
-  return fields_as_toml([&](FieldVisitor& visitor) { scenario::fields(visitor, only); });
+  std::string key = fields_as_toml([&](FieldVisitor& visitor) { scenario::fields(visitor, only); });
+  // How the body lies, whatever keys say so: presses in several places share it.
+  for (int i = 0; i < 9; ++i) key += number_text(scenario.tissue.turn(i / 3, i % 3)) + " ";
+  for (int i = 0; i < 3; ++i) key += number_text(scenario.tissue.base_up[i]) + " ";
+  return key + std::to_string(scenario.tissue.near_part);
 }
 
 SpecimenShapes::Entry& SpecimenShapes::entry(const Scenario& scenario) {
@@ -176,13 +177,52 @@ double SpecimenShapes::seconds(const Scenario& scenario) {
   return known.seconds;
 }
 
+namespace {
+
+// What the parts of a surface file depend on.
+std::string parts_key(const Scenario& scenario, const std::string& folder) {
+  const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
+  return folder + "\n" + file.file + "\n" + file.unit + (file.repair ? "\nr" : "\n") +
+         number_text(file.repair_up_to) + "\n";
+}
+
+}  // namespace
+
+const meshing::MendedSurface& SpecimenShapes::all_parts(const Scenario& scenario,
+                                                        const std::string& folder) {
+  AllParts& known = [&]() -> AllParts& {
+    const std::lock_guard lock(looking_up_);
+    return parts_[parts_key(scenario, folder)];
+  }();
+  const std::lock_guard lock(known.reading);
+  if (!known.mended && !known.refusal) {
+    try {
+      known.mended = all_parts_of(scenario, folder);
+    } catch (const MeshError&) {
+      known.refusal = std::current_exception();
+    } catch (const InputError&) {
+      known.refusal = std::current_exception();
+    }
+  }
+  if (known.refusal) std::rethrow_exception(known.refusal);
+  return *known.mended;
+}
+
+int SpecimenShapes::near_part(const Scenario& scenario, const std::string& folder,
+                              const Vec3& place) {
+  try {
+    return meshing::near_part(all_parts(scenario, folder), place);
+  } catch (const MeshError&) {
+  } catch (const InputError&) {
+  }
+  return 0;
+}
+
 SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario,
                                                         const std::string& folder) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
-  std::string key = folder + "\n" + file.file + "\n" + file.unit + (file.repair ? "\nr" : "\n") +
-                    number_text(file.repair_up_to) + "\n" + std::to_string(file.part.value_or(0));
-  if (!scenario.uniform())
-    for (const double at : scenario.finger.at) key += " " + number_text(at);
+  std::string key = parts_key(scenario, folder) + std::to_string(file.part.value_or(0)) + " " +
+                    std::to_string(scenario.tissue.near_part);
   for (int i = 0; i < 9; ++i) key += " " + number_text(scenario.tissue.turn(i / 3, i % 3));
   const std::lock_guard lock(looking_up_);
   return surfaces_[key];
@@ -223,7 +263,7 @@ const SpecimenShapes::FileSurface& SpecimenShapes::surface(const Scenario& scena
     known.refusal = std::current_exception();
   };
   try {
-    meshing::WholeSurface whole = surface_of(scenario, folder);
+    meshing::WholeSurface whole = part_of(all_parts(scenario, folder), scenario);
     known.warning = std::move(whole.warning);
     known.part = std::move(whole.part);
     known.surface = std::make_shared<const geometry::SmoothSurface>(std::move(whole.surface));

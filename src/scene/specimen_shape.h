@@ -16,6 +16,7 @@
 #include "contact/layer.h"
 #include "geometry/smooth_surface.h"
 #include "geometry/tet_mesh.h"
+#include "meshing/surface_repair.h"
 #include "scenario/resolved.h"
 #include "scene/refining_press.h"
 #include "tissue/stiffness.h"
@@ -80,6 +81,11 @@ class SpecimenShapes {
   [[nodiscard]] const FileSurface& surface(const scenario::Resolved& scenario,
                                            const std::string& folder);
 
+  // The number of the part of that file that is nearest to a place (m) in its coordinates; 0 if it
+  // has only one, or cannot be read.
+  [[nodiscard]] int near_part(const scenario::Resolved& scenario, const std::string& folder,
+                              const Vec3& place);
+
   // Takes over a surface that another object has read.
   void know_surface(const scenario::Resolved& scenario, const std::string& folder,
                     SpecimenShapes& from);
@@ -107,11 +113,21 @@ class SpecimenShapes {
   [[nodiscard]] Entry& entry(const scenario::Resolved& scenario);
   [[nodiscard]] FileSurface& file_entry(const scenario::Resolved& scenario,
                                         const std::string& folder);
+  // All parts of a file, mended, or why they cannot be read.
+  struct AllParts {
+    std::mutex reading;
+    std::optional<meshing::MendedSurface> mended;
+    std::exception_ptr refusal;
+  };
+  // Throws the refusal, if there is one.
+  [[nodiscard]] const meshing::MendedSurface& all_parts(const scenario::Resolved& scenario,
+                                                        const std::string& folder);
 
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;
   std::atomic<double> seconds_ = 0.0;
-  std::map<std::string, FileSurface> surfaces_;  // by path, unit, turn and what is asked of it
+  std::map<std::string, AllParts> parts_;        // by path, unit and what is mended
+  std::map<std::string, FileSurface> surfaces_;  // by these, part and turn
 
   std::map<std::string, std::pair<std::mutex, std::optional<Numbers>>> numbers_;
 };

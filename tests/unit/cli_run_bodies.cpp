@@ -164,6 +164,16 @@ TEST_F(RunBodies, a_refusal_names_the_part_that_is_taken) {
   EXPECT_TRUE(says(small, "with 1000 times its volume")) << small.err;
 }
 
+// TetGen, which meshes inclusions, does not serve a mesh that is there.
+TEST_F(RunBodies, a_ready_mesh_takes_groups_and_no_inclusions) {
+  const Ended ended = run("shape = { kind = \"as_meshed\" }\nmesh = { file = \"" +
+                              project_file("golden/meshes/box.node") + "\", unit = \"m\" }\n",
+                          "", "[[region]]\nkind = \"sphere\"\n");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_TRUE(says(ended, "a ready mesh takes no `sphere` region; give its cells a group"))
+      << ended.err;
+}
+
 TEST_F(RunBodies, a_turned_column_is_held_as_a_straight_one) {
   const auto at = [](double degrees) {
     const Vec3 top =

@@ -111,9 +111,9 @@ TEST(SurfaceCheck, asks_about_the_unit) {
   EXPECT_EQ(size(1e300, "m"),
             "surface `paw`: is 1e+300 m long in `m`, but wants 1e-6 m to 10 m; check its unit");
   EXPECT_EQ(other_units(0.0115, "cm"), "in `m` it would be 1.15 m long");
-  EXPECT_EQ(test::refusal<MeshError>([] { return whole_surface(corner(60.0), "paw", {}); })
-                .substr(0, 32),
-            "surface `paw`: is 60 m long in `");
+  EXPECT_EQ(
+      test::refusal<MeshError>([] { return whole_surface(corner(60.0), "paw", {}); }).substr(0, 32),
+      "surface `paw`: is 60 m long in `");
 }
 
 TEST(SurfaceCheck, refuses_a_repeated_vertex) {

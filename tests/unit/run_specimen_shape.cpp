@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "geometry/cuboid.h"
 #include "run/refined_mesh.h"
 #include "scenario/family.h"
+#include "scene/places.h"
 #include "scene/scene.h"
+#include "surface_file.h"
 
 namespace palpate {
 namespace {
@@ -125,6 +128,53 @@ TEST(SpecimenShapes, are_apart_where_the_mesh_differs) {
     return scene::shape_key(resolved(scenario::parse(text, "a.toml", {}).cases.front()));
   };
   EXPECT_NE(only(creep), only(pressed));  // a uniform test stands it on its end
+}
+
+// Two blocks in one file, each pressed from above in two places and from a side.
+TEST(SpecimenShapes, places_on_one_part_share_its_surface_and_mesh) {
+  const test::TemporaryFolder folder;
+  geometry::Surface both;
+  for (const double x : {0.0, 0.05}) {
+    const geometry::Surface block =
+        geometry::outer_surface(
+            geometry::cuboid(Vec3(0.03, 0.03, 0.02), {2, 2, 2}, geometry::CellPattern::mirrored))
+            .surface;
+    const int before = static_cast<int>(both.vertices.size());
+    for (const Vec3& vertex : block.vertices)
+      both.vertices.push_back((x > 0.0 ? 0.9 : 1.0) * vertex + Vec3(x, 0.0, 0.0));
+    for (const auto& [a, b, c] : block.triangles)
+      both.triangles.push_back({a + before, b + before, c + before});
+  }
+  test::write_off(folder / "both.off", both);
+  scene::SpecimenShapes shapes;
+  const auto placed = [&](const std::string& at) {
+    scenario::Case one =
+        scenario::parse(
+            "[tissue]\nshape = { kind = \"file\", file = \"both.off\", unit = \"mm\" }\n"
+            "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[finger]\nat = " +
+                at + "\n",
+            (folder / "press.toml").string(), {})
+            .cases.front();
+    scenario::Resolved found = scenario::resolve(one, scenario::strongest.of);
+    scene::place_in_scene(found, folder.path().string(), shapes);
+    return found;
+  };
+  const auto surface = [&](const scenario::Resolved& one) {
+    return shapes.surface(one, folder.path().string()).surface;
+  };
+  const scenario::Resolved first = placed("[\"10 mm\", \"10 mm\", \"20 mm\"]");
+  const scenario::Resolved beside = placed("[\"20 mm\", \"12 mm\", \"20 mm\"]");
+  const scenario::Resolved other = placed("[\"60 mm\", \"10 mm\", \"18 mm\"]");
+  const scenario::Resolved side = placed("[\"0 mm\", \"10 mm\", \"10 mm\"]");
+  ASSERT_TRUE(surface(first));
+  EXPECT_EQ(first.tissue.near_part, 1);
+  EXPECT_EQ(other.tissue.near_part, 2);
+  EXPECT_EQ(surface(first), surface(beside)) << "one object";
+  EXPECT_NE(surface(first), surface(other));
+  EXPECT_NE(surface(first), surface(side));
+  EXPECT_EQ(scene::shape_key(first), scene::shape_key(beside));
+  EXPECT_NE(scene::shape_key(first), scene::shape_key(other));
+  EXPECT_NE(scene::shape_key(first), scene::shape_key(side));
 }
 
 TEST(SpecimenShapes, refuse_each_time_they_are_asked) {

@@ -117,8 +117,8 @@ TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
   }
 }
 
-// So does one under an elastic finger, which yields by a tenth of Hertz's depth. The end that is told
-// is the finger's displacement, up to which there is a force.
+// So does one under an elastic finger, which yields by a tenth of Hertz's depth. The end that is
+// told is the finger's displacement, up to which there is a force.
 TEST(FingerPress, AnElasticFingerKeepsWhatItFoundToo) {
   FingerOrder order = thin_layer();
   order.ball = tissue::Isotropic{90e3, 0.45};
