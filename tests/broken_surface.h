@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "meshing/mesh_check.h"
 #include "meshing/surface_files.h"
 #include "meshing/surface_repair.h"
 
@@ -96,7 +97,9 @@ class BrokenSurfaces : public testing::Test {
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     try {
-      check_closed(read_surface(path(name), 1e-2), "paw");
+      const geometry::Surface surface = read_surface(path(name), 1e-2);
+      refuse_size(surface.vertices, "surface `paw`", "cm");
+      check_closed(surface, "paw");
     } catch (const MeshError& error) {
       text = std::string("mesh: ") + error.what();
     } catch (const InputError& error) {

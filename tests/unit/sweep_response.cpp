@@ -203,15 +203,15 @@ TEST(Response, EveryDesignIsDrawnInSilence) {
   EXPECT_EQ(drawn(sample(Kind::lhs)),
             (Files{"correlation.csv", "sweep_points.csv", peak + ".gp", peak + ".svg"}));
   EXPECT_EQ(drawn(sample(Kind::saltelli)),
-            (Files{"sensitivity.csv", "sensitivity.gp", "sensitivity.svg", "sweep_points.csv",
-                   peak + ".gp", peak + ".svg"}));
+            (Files{"sensitivity.csv", "sweep_points.csv", peak + ".gp", peak + ".svg",
+                   "sensitivity.gp", "sensitivity.svg"}));
   auto wide = grid();  // with labels such as 0.005
   for (double& value : wide.outputs[0].values) value *= 5e-4;
   EXPECT_EQ(drawn(wide).size(), 3u);
   auto whole = grid();
   whole.outputs[0].values[9] = 100.2;
-  EXPECT_EQ(drawn(whole), (Files{"sensitivity.csv", "sensitivity.gp", "sensitivity.svg",
-                                 force + ".csv", force + ".gp", force + ".svg"}));
+  EXPECT_EQ(drawn(whole), (Files{"sensitivity.csv", force + ".csv", force + ".gp", force + ".svg",
+                                 "sensitivity.gp", "sensitivity.svg"}));
 }
 
 // A part of a sweep may omit whole curves, or all cases of the figure.
