@@ -232,7 +232,10 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
       return excess != other.excess ? excess < other.excess : edge > other.edge;
     }
   };
-  if (movable_) without_crossings(whole, [](SurfaceNet& net) { net.turn_edges(); });
+  if (movable_) {
+    without_crossings(whole, [](SurfaceNet& net) { net.smooth(0.0); });
+    without_crossings(whole, [](SurfaceNet& net) { net.turn_edges(); });
+  }
   for (;;) {
     std::priority_queue<Long> waiting;
     const auto look = [&](const Edge& edge) {
@@ -275,15 +278,16 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
   without_crossings(whole, [](SurfaceNet& net) {
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
-      net.smooth();
+      net.smooth(1.0);
       net.turn_edges();
     }
   });
 }
 
-// Moves every vertex without a crease, and on no plane or inside one, to the mean of its
-// neighbours, where no triangle turns by more than 60 degrees or becomes a needle.
-void SurfaceNet::smooth() {
+// Moves every vertex without a crease, and on no plane or inside one, by a share of the way to the
+// mean of its neighbours and onto the true surface, where no triangle turns by more than 60 degrees
+// or becomes a needle.
+void SurfaceNet::smooth(double share) {
   std::vector<std::set<int>> near(vertices_.size());
   std::vector<std::set<int>> around(vertices_.size());  // triangles
   std::vector<char> fixed(vertices_.size(), 0);
@@ -316,6 +320,7 @@ void SurfaceNet::smooth() {
     Vec3 middle = Vec3::Zero();
     for (const int other : near[v])
       middle += vertices_[as_index(other)] / static_cast<double>(near[v].size());
+    middle = before + share * (middle - before);
     bool leaves = false;
     for (const Plane& plane : planes_) {
       if (plane.beyond(before) != 0.0) continue;

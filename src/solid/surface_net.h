@@ -76,7 +76,7 @@ class SurfaceNet {
   void connect(int triangle);
   void disconnect(int triangle);
   void turn_edges();
-  void smooth();
+  void smooth(double share);
   void without_crossings(std::optional<int> whole, const std::function<void(SurfaceNet&)>& step);
   [[nodiscard]] bool crease(const Edge& edge) const;
 

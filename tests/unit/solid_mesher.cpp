@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "geometry/box_tree.h"
 #include "geometry/cuboid.h"
 #include "meshing/cgal_library.h"
 #include "solid/finger_press.h"
@@ -160,6 +161,61 @@ TEST(SolidMesher, MiddlesLieOnTheTrueBoundary) {
       on += std::abs((place - half).cwiseQuotient(half).norm() - 1.0) < 1e-6 ? 1 : 0;
     }
   EXPECT_EQ(on, all);
+}
+
+// A block of 60 x 60 x 20 mm whose top is a hollow of 24 mm radius.
+geometry::Surface dish(int cells) {
+  constexpr double side = 0.060, height = 0.020, radius = 0.024, deep = 0.003;
+  const Vec3 centre(0.5 * side, 0.5 * side, height - deep + radius);
+  geometry::Surface made;
+  for (const bool top : {true, false})
+    for (int j = 0; j <= cells; ++j)
+      for (int i = 0; i <= cells; ++i) {
+        Vec3 at(side * i / cells, side * j / cells, top ? height : 0.0);
+        const double beside = (at - centre).head<2>().norm();
+        if (top && beside < radius)
+          at.z() = std::min(height, centre.z() - std::sqrt(radius * radius - beside * beside));
+        made.vertices.push_back(at);
+      }
+  const int row = cells + 1;
+  const auto quad = [&](int a, int b, int c, int d) {
+    made.triangles.push_back({a, b, c});
+    made.triangles.push_back({a, c, d});
+  };
+  const auto at = [&](int layer, int i, int j) { return (layer * row + j) * row + i; };
+  for (int j = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      quad(at(0, i, j), at(0, i + 1, j), at(0, i + 1, j + 1), at(0, i, j + 1));
+      quad(at(1, i, j), at(1, i, j + 1), at(1, i + 1, j + 1), at(1, i + 1, j));
+    }
+  for (int k = 0; k < cells; ++k) {
+    quad(at(0, k + 1, 0), at(0, k, 0), at(1, k, 0), at(1, k + 1, 0));
+    quad(at(0, k, cells), at(0, k + 1, cells), at(1, k + 1, cells), at(1, k, cells));
+    quad(at(0, 0, k), at(0, 0, k + 1), at(1, 0, k + 1), at(1, 0, k));
+    quad(at(0, cells, k + 1), at(0, cells, k), at(1, cells, k), at(1, cells, k + 1));
+  }
+  return made;
+}
+
+// A coarser surface has vertices beside the true one. (A dish was touched too early.)
+TEST(SolidMesher, CornersLieOnTheSurfaceOfAFile) {
+  const geometry::SmoothSurface surface(dish(30));
+  const Vec3 top(0.030, 0.030, 0.017);
+  MeshOrder order;
+  order.surface = &surface;
+  order.sizes = {{{top, 0.003, 0.0012}}, 0.008};
+  const Mesh mesh = mesh_for(order);
+  const geometry::BoxTree tree(surface.surface());
+  int corners = 0;
+  for (const OuterFace& face : mesh.boundary)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& place = mesh.nodes[std::size_t(face.nodes[i])];
+      if ((place - top).norm() > 0.008) continue;
+      const Vec3 there = surface.closest_point(place, tree.nearest(place)).position;
+      EXPECT_LT((there - place).norm(), 5e-6);
+      ++corners;
+    }
+  EXPECT_GT(corners, 100);
 }
 
 // Whole, and cut in two by a mirror through the cavity.
