@@ -43,7 +43,9 @@ std::string suffix_of(const Identification& found, std::size_t k) {
 std::string figure_words(const std::string& name) {
   if (name.starts_with("profile"))
     return "How much worse the fit becomes if one value is fixed and the others are fitted; below "
-           "the line the value is within the 95 % interval.";
+           "the line the value is within the 95 % interval of the noise. What is not known of "
+           "model, "
+           "body and given values makes the stated interval wider.";
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
 
@@ -124,7 +126,7 @@ std::vector<std::string> write_identification(const Identification& found,
     plot::draw(identified_sheet(title, *all[k], suffix_of(found, k)), folder, warnings);
   if (!found.profile.empty()) {
     folder.write("profile.csv", record::csv_text(profile_table(found)));
-    plot::draw(profile_sheet(title, found), folder, warnings);
+    if (!is_exact(found)) plot::draw(profile_sheet(title, found), folder, warnings);
   }
 
   report::Manifest manifest = report::begin_manifest(origin, read);

@@ -8,6 +8,12 @@
 #include "base/text.h"
 
 namespace palpate::identify {
+
+bool is_exact(const Identification& found) {
+  const auto [least, most] = std::minmax_element(found.measured.begin(), found.measured.end());
+  return found.rmse < 1e-6 * (*most - *least);
+}
+
 namespace {
 
 using record::Cell;
@@ -21,12 +27,6 @@ Cell word(bool yes) { return std::string(yes ? "yes" : "no"); }
 // `57.2 kPa`, `0.45`
 std::string with_unit(double value, const std::string& unit) {
   return rounded_text(value, 4) + (unit.empty() ? "" : " " + unit);
-}
-
-// Residuals below a millionth of the curve are rounding, of the file's digits or the computation's.
-bool is_exact(const Identification& found) {
-  const auto [least, most] = std::minmax_element(found.measured.begin(), found.measured.end());
-  return found.rmse < 1e-6 * (*most - *least);
 }
 
 std::string interval_text(const Interval& interval, const Unknown& unknown, bool exact) {

@@ -26,6 +26,10 @@ namespace palpate::identify {
 // threshold = t^2.                                                       docs/theory.md [profile]
 [[nodiscard]] record::Table profile_table(const Identification& found);
 
+// Whether residuals are below a millionth of the curve: rounding, of the file's digits or the
+// computation's.
+[[nodiscard]] bool is_exact(const Identification& found);
+
 // The 95 % interval to trust, in the unknown's unit; nothing: open on that side.
 struct Interval {
   std::optional<double> low, high;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/index.h"
 #include "base/text.h"
 #include "fit/residual_tests.h"
 #include "identify/fixed_model.h"
@@ -70,8 +71,11 @@ DefaultBody default_body(ScenarioCurve& curve, const scenario::Family& family,
   half.one.scenario.solver.model = scenario::Model::hertz;
   const auto on_block = curve.rows(values);
   const auto on_half = ScenarioCurve(curve.kind(), std::move(half), family, {}).rows({});
-  if (on_block && on_half && on_half->y.back() > 0.0) {
-    const double more = on_block->y.back() / on_half->y.back() - 1.0;
+  if (on_block && on_half && on_block->y.size() == on_half->y.size()) {
+    // Over time the last row may be after the finger has left the body.
+    const auto largest = std::max_element(on_half->y.begin(), on_half->y.end());
+    const double on_this = on_block->y[as_index(largest - on_half->y.begin())];
+    const double more = *largest > 0.0 ? on_this / *largest - 1.0 : 0.0;
     if (std::abs(more) > 0.02) {
       body.change = more;
       body.text += ", on which the force at the deepest is " + percent_text(std::abs(more)) +

@@ -232,6 +232,14 @@ TEST(Identify, SaysWhichBodyItTakesUnasked) {
       << said(found);
   EXPECT_EQ(said(test::identified(half, on_block, {.profiles = false})).find("default block"),
             std::string::npos);
+  // So it is over time, where the curve ends after the finger has left the body.
+  IdentifyScene timed = unnamed;
+  timed.text += "[[step]]\nkind = \"retract\"\nrate = \"5 mm/s\"\n";
+  timed.kind = identify::CurveKind::force_time;
+  const auto over_time = test::identified(timed, test::clean_curve(timed), {.profiles = false});
+  EXPECT_NE(said(over_time).find("larger than on a half-space, and the intervals"),
+            std::string::npos)
+      << said(over_time);
   // A specimen that is a half-space after all is in the interval.
   const auto other =
       test::identified(unnamed, test::clean_curve(half), {.profiles = false}).unknowns[0];
