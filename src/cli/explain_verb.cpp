@@ -535,10 +535,9 @@ std::size_t case_shown(const Explain& command, const std::vector<scene::Scene>& 
     names.resize(most);
     names.emplace_back("...");
   }
-  throw InputError({command.subject, 0, 0},
-                   "has no case " + ticked(command.case_name) +
-                       (near ? "; did you mean " + ticked(*near) + "?"
-                             : "; its cases: " + joined(names, ", ")));
+  throw InputError({command.subject, 0, 0}, "has no case " + ticked(command.case_name) +
+                                                (near ? "; did you mean " + ticked(*near) + "?"
+                                                      : "; its cases: " + joined(names, ", ")));
 }
 
 }  // namespace

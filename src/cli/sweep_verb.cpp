@@ -129,8 +129,8 @@ struct LookedAt {
 
 // Writes sensitivity, maps, curves and the page beside the table.
 LookedAt look_at(const sweep::SweepPlan& plan, const Sweep& command,
-                                 const sweep::SweepTotals& totals, const sweep::SweepAnswer& answer,
-                                 WholeFolder& folder) {
+                 const sweep::SweepTotals& totals, const sweep::SweepAnswer& answer,
+                 WholeFolder& folder) {
   const scenario::Family& family = plan.family;
   LookedAt looked;
   if (family.design.empty()) return looked;
@@ -141,8 +141,7 @@ LookedAt look_at(const sweep::SweepPlan& plan, const Sweep& command,
   if (options) options->formats = report::picture_formats(family.base.output);
   const sweep::Sensitivity found = sweep::sensitivity(columns);
   if (!columns.outputs.empty()) looked.range = sweep::range_text(columns.outputs.front());
-  looked.warnings =
-      sweep::draw_sweep(columns, found, family.title, folder, options);
+  looked.warnings = sweep::draw_sweep(columns, found, family.title, folder, options);
   if (family.base.output.report)
     sweep::write_sweep_page(
         {.columns = columns,
@@ -186,10 +185,8 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   folder.open();
   const sweep::SweepAnswer answer = sweep::merge_sweep(plan, results, totals, folder);
   const LookedAt looked = look_at(plan, command, totals, answer, folder);
-  const std::string undrawn =
-      warn_all(folder.put(totals.missing == 0 ? State::complete : State::incomplete,
-                          looked.warnings),
-               talk);
+  const std::string undrawn = warn_all(
+      folder.put(totals.missing == 0 ? State::complete : State::incomplete, looked.warnings), talk);
   std::string text = folder.path() + ": " + std::to_string(totals.completed) + " of " +
                      cases_text(totals.cases) + " completed";
   if (totals.diverged + totals.failed > 0)

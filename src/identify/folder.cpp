@@ -113,8 +113,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
                page::making({.command = command,
                              .note = "It runs where the files below lie. Here, `palpate run "
                                      "scenario" +
-                                     suffix_of(found, 0) +
-                                     ".toml` computes the fitted curve."},
+                                     suffix_of(found, 0) + ".toml` computes the fitted curve."},
                             inputs, folder),
                folded);
   page::write(std::move(page), folder);

@@ -118,7 +118,7 @@ enum class Outcome { completed, diverged, interrupted, stopped };
 struct CaseRecord {
   std::string name;
   Outcome outcome = Outcome::completed;
-  std::string reason;             // a sentence; empty if completed
+  std::string reason;     // a sentence; empty if completed
   bool unstable = false;  // ended because the motion grew by itself: no row of it is a result
   double last_stable_time = 0.0;  // s
   std::vector<ContactRow> contact;

@@ -76,10 +76,10 @@ std::string uncounted(const std::vector<record::CaseRecord>& records) {
       longest = &record.answer;
   }
   if (longest == nullptr) return "";
-  return record::uncounted_text(*longest) +
-         (cases == std::ssize(records)
-              ? ""
-              : " in " + std::to_string(cases) + " of " + std::to_string(records.size()) + " cases");
+  return record::uncounted_text(*longest) + (cases == std::ssize(records)
+                                                 ? ""
+                                                 : " in " + std::to_string(cases) + " of " +
+                                                       std::to_string(records.size()) + " cases");
 }
 
 // "errors of about 1.2 % to 6.1 % (tolerance 5 %), not counting viscosity"
@@ -98,8 +98,8 @@ std::string errors(const std::vector<record::CaseRecord>& records) {
 std::string peaks(const std::vector<record::CaseRecord>& records) {
   const auto unstable = std::count_if(records.begin(), records.end(),
                                       [](const auto& record) { return record.unstable; });
-  const std::string diverged = std::to_string(unstable) + " of " +
-                               std::to_string(records.size()) + " cases diverged";
+  const std::string diverged =
+      std::to_string(unstable) + " of " + std::to_string(records.size()) + " cases diverged";
   std::string text = unstable > 0 ? diverged : "Nothing was reached";
   if (const auto range = range_of(records, [](const auto& one) {
         const auto peak = one.unstable ? std::nullopt : record::peak_of(one);
@@ -165,15 +165,15 @@ std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& rec
     if (answer.neglected.empty()) return {answer.model, answer.error};  // no model ran
     return {answer.model, answer.error, answer.neglected};
   }
-  std::vector<std::string> lines{models(records) + "; `palpate explain` says why.",
-                                 peaks(records)};
+  std::vector<std::string> lines{models(records) + "; `palpate explain` says why.", peaks(records)};
   add_neglected(records, lines);
   return lines;
 }
 
 std::vector<std::string> forecast_lines(const std::vector<record::CaseRecord>& records) {
   std::vector<std::string> lines{models(records) + "."};
-  if (const std::string text = errors(records); !text.empty()) lines.push_back(capitalized(text) + ".");
+  if (const std::string text = errors(records); !text.empty())
+    lines.push_back(capitalized(text) + ".");
   add_neglected(records, lines);
   return lines;
 }

@@ -81,10 +81,10 @@ std::string SweepAnswer::error() const {
   const std::string low = text(errors_.low), high = text(errors_.high);
   return "± " + low + (low == high ? "" : " to " + high) +
          (unknown_ == 0 ? "" : ", not known in " + of_cases(unknown_, cases_)) +
-         (uncounted_cases_ == 0         ? ""
-          : uncounted_cases_ == cases_ ? ", " + uncounted_
-                                        : ", " + uncounted_ + " in " +
-                                              of_cases(uncounted_cases_, cases_));
+         (uncounted_cases_ == 0 ? ""
+          : uncounted_cases_ == cases_
+              ? ", " + uncounted_
+              : ", " + uncounted_ + " in " + of_cases(uncounted_cases_, cases_));
 }
 
 std::vector<std::string> SweepAnswer::lines() const {

@@ -103,9 +103,7 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   page.section("Warnings", page::paragraphs(shown.warnings));
   constexpr auto folded = page::Page::Shown::folded;
   page.section("Scenario", page::folded("The scenario as written", shown.scenario), folded);
-  page.section("How it was made",
-               page::making({.command = shown.command}, {}, folder),
-               folded);
+  page.section("How it was made", page::making({.command = shown.command}, {}, folder), folded);
   page::write(std::move(page), folder);
 }
 

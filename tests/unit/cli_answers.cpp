@@ -278,7 +278,8 @@ TEST_F(Quickstart, of_many_cases_is_summed_up) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_TRUE(says(ended, "Models: layer in 9 of 9; ")) << ended.err;
   EXPECT_TRUE(says(ended, " % (tolerance 5 %), not counting viscosity.\n")) << ended.err;
-  EXPECT_TRUE(says(ended, "\nNeglected in `10 kPa`, and so in 8 more cases: viscosity, which would "))
+  EXPECT_TRUE(
+      says(ended, "\nNeglected in `10 kPa`, and so in 8 more cases: viscosity, which would "))
       << ended.err;
   EXPECT_LE(split(trimmed(ended.err), '\n').size(), 6U) << ended.err;
 }

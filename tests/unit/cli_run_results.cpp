@@ -91,8 +91,8 @@ TEST(ARunThatEndsEarly, keeps_its_curve_and_shows_no_force_where_there_is_none) 
 // Where the motion itself went wrong, no force is shown as a result.
 TEST(ARunThatDiverges, says_so_first_on_page_and_terminal) {
   const TemporaryFolder folder;
-  const Ended ended = palpate(
-      folder.path(), {"run", project_file("scenarios/failures/01_step_above_limit.toml")});
+  const Ended ended =
+      palpate(folder.path(), {"run", project_file("scenarios/failures/01_step_above_limit.toml")});
   EXPECT_EQ(ended.code, 4);
   EXPECT_TRUE(says(ended, "mm, where the run diverged; no error is stated.")) << ended.err;
   EXPECT_TRUE(ended.err.ends_with(": 1 of 1 case, 1 ended early\n")) << ended.err;

@@ -24,7 +24,8 @@ TEST(AnswerLines, ErrorsAboveTheWholeHaveNoDigits) {
   EXPECT_EQ(peaks(0.012, 6.34), force + "about 1.2 % to more than 100 %.");
 }
 
-// As a single case does: the tolerance, of the case with the largest error, and what is not counted.
+// As a single case does: the tolerance, of the case with the largest error, and what is not
+// counted.
 TEST(AnswerLines, ErrorsAreHeldAgainstTheTolerance) {
   record::CaseRecord least = one("a", 0.1, 0.012), most = one("b", 0.2, 0.061);
   least.answer.tolerance = "tolerance 5 %";
