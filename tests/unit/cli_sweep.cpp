@@ -120,7 +120,7 @@ TEST_F(SweepVerb, MissingCasesAreRows) {
   EXPECT_TRUE(merge.err.starts_with(
       "warning: sensitivity of `peak_force_N`: 4 of 6 cases have no value, and the indices of a "
       "grid need all; run what is missing, narrow the ranges to where cases complete, or take "
-      "`design = \"saltelli\"`\nError: "))
+      "`design = \"saltelli\"`\nPeak force "))
       << merge.err;
   EXPECT_TRUE(
       merge.err.ends_with("out/s_sweep/merged: 2 of 6 cases completed, 4 missing (numbers "
