@@ -109,6 +109,8 @@ void add_options(CLI::App& verb, Explain& explain) {
   verb.add_option("--picture", explain.picture,
                   "Draw the body, its base and the finger into a .svg, or an .html to turn")
       ->type_name("FILE");
+  verb.add_option("--case", explain.case_name, "The case of a sweep to explain; none: the first")
+      ->type_name("NAME");
 }
 
 void add_options(CLI::App& verb, Fit& fit) {

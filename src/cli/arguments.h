@@ -47,7 +47,8 @@ struct Explain {
   static constexpr Word word{"explain", "What a scenario would compute, or what a key means"};
   std::string subject;  // a scenario's path, or a key
   std::vector<std::string> settings;
-  std::string picture;  // file to write, .svg or .html; empty: none
+  std::string picture;    // file to write, .svg or .html; empty: none
+  std::string case_name;  // of a sweep, which is explained at length; empty: the first
 };
 // The layout of a measured file: --x, --x-unit, --skip ...
 using DataOptions = measured::DataLayout;

@@ -11,11 +11,13 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/processor_time.h"
+#include "base/shell_word.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "page/page.h"
+#include "report/answer_lines.h"
 #include "report/scene_picture.h"
 #include "run/answer.h"
 #include "run/cost.h"
@@ -506,6 +508,38 @@ void tell_cost(const scenario::Family& family, double seconds, const Talk& talk)
       (cases == 1 ? ".\n" : ": " + std::to_string(cases) + " cases of " + text(of_a_case) + ".\n"));
 }
 
+// Of all cases together, before any has run.
+std::string summary(const std::vector<scene::Scene>& scenes,
+                    const std::vector<run::Expected>& expected) {
+  std::vector<record::CaseRecord> records(scenes.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    records[i].name = scenes[i].name;
+    records[i].findings = {
+        {"model", std::string(scenario::traits(scenes[i].scenario.solver.model).word)}};
+    records[i].answer = expected[i].answer;
+  }
+  return joined(report::forecast_lines(records), "\n") + "\n";
+}
+
+// The number of the case that is explained at length: the first, or the one asked for.
+std::size_t case_shown(const Explain& command, const std::vector<scene::Scene>& scenes) {
+  if (command.case_name.empty()) return 0;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    if (scenes[i].name == command.case_name) return i;
+    names.push_back(scenes[i].name);
+  }
+  constexpr std::size_t most = 12;
+  const auto near = nearest(command.case_name, names);
+  if (names.size() > most) {
+    names.resize(most);
+    names.emplace_back("...");
+  }
+  throw InputError({command.subject, 0, 0}, "has no case " + ticked(command.case_name) +
+                                                (near ? "; did you mean " + ticked(*near) + "?"
+                                                      : "; its cases: " + joined(names, ", ")));
+}
+
 }  // namespace
 
 int perform(const Explain& command, const Arguments&, const Talk& talk) {
@@ -529,24 +563,32 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
   const double start = processor_seconds();
   const std::vector<scene::Scene> scenes = run::build_all(family, 1);
   const double set_up = processor_seconds() - start;
-  for (const scene::Scene& scene : scenes) {
-    const run::Expected expected = run::expect(scene);
-    const bool first = &scene == &scenes.front();
-    Explanation explanation(scene, expected);
-    if (first && !command.picture.empty())
-      draw(command.picture, scene, family.title,
-           Explanation(scene, expected).text("", family.title));
-    if (talk.json()) {
-      const std::optional<double> seconds =
-          family.design.empty() ? cost_of(family, scenes, set_up) : std::nullopt;
-      print(explain_json(family.name, scene, expected, seconds) + "\n");
-      continue;
-    }
-    if (!first) print("\n");
-    print_text(explanation.text(family.design.count() > 1 ? scene.name : "", family.title));
+  std::vector<run::Expected> expected;
+  for (const scene::Scene& scene : scenes) expected.push_back(run::expect(scene));
+  const std::optional<double> seconds = cost_of(family, scenes, set_up);
+  const std::size_t shown = case_shown(command, scenes);
+  const bool several = family.design.count() > 1;
+  const std::string text = Explanation(scenes[shown], expected[shown])
+                               .text(several ? scenes[shown].name : "", family.title);
+  if (!command.picture.empty())
+    draw(command.picture, scenes[shown], family.title,
+         Explanation(scenes[shown], expected[shown]).text("", family.title));
+  if (talk.json()) {
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+      print(explain_json(family.name, scenes[i], expected[i],
+                         family.design.empty() ? seconds : std::nullopt) +
+            "\n");
+    if (seconds && !family.design.empty()) tell_cost(family, *seconds, talk);
+  } else {
+    const bool first_of_several = scenes.size() > 1 && command.case_name.empty();
+    if (first_of_several) print(summary(scenes, expected));
+    if (first_of_several && seconds) tell_cost(family, *seconds, talk);
+    if (first_of_several)
+      print("\nThe first of " + std::to_string(scenes.size()) + " cases; `--case " +
+            shown_word(scenes.back().name) + "` shows the last.\n");
+    print_text(text);
+    if (!first_of_several && seconds) tell_cost(family, *seconds, talk);
   }
-  if (!talk.json() || !family.design.empty())
-    if (const auto seconds = cost_of(family, scenes, set_up)) tell_cost(family, *seconds, talk);
   if (command.subject != "-") talk.next("run", command.subject);
   return exit_good;
 }

@@ -153,8 +153,12 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   talk.say(time_sentence(prepared.seconds, steps, files));
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))
     talk.say("The page to look at is " + page + ".");
+  const auto early = std::count_if(records.begin(), records.end(), [](const auto& record) {
+    return record.outcome != record::Outcome::completed;
+  });
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
-           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases") + ran.missing);
+           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases") +
+           (early == 0 ? "" : ", " + std::to_string(early) + " ended early") + ran.missing);
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
   talk.next("open", folder.path());
   return ran;

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/index.h"
+#include "base/shell_word.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "cli/arguments.h"
@@ -111,21 +112,36 @@ std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResu
   return text;
 }
 
-// Writes sensitivity, maps, curves and the page beside the table. Returns notes on what could not
-// be computed; this is no failure of the merge.
-std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& command,
-                                 const sweep::SweepTotals& totals, const sweep::SweepAnswer& answer,
-                                 WholeFolder& folder) {
+// What repeats a merged sweep in its folder, from the copy of the scenario in that of the plan.
+std::string repeating(const sweep::SweepPlan& plan, const Sweep& command) {
+  std::string text = "palpate sweep plan ../inputs/scenario.toml";
+  if (plan.curves) text += " --curves";
+  if (plan.count() > sweep::sweep_ceiling) text += " --yes";
+  text += "\npalpate sweep run out/scenario_sweep\npalpate sweep merge out/scenario_sweep";
+  for (const std::string& column : command.show) text += " --show " + shown_word(column);
+  return text;
+}
+
+struct LookedAt {
+  std::string range = {};                  // of the first result; empty if it has none
+  std::vector<std::string> warnings = {};  // on what could not be computed: no failure of the merge
+};
+
+// Writes sensitivity, maps, curves and the page beside the table.
+LookedAt look_at(const sweep::SweepPlan& plan, const Sweep& command,
+                 const sweep::SweepTotals& totals, const sweep::SweepAnswer& answer,
+                 WholeFolder& folder) {
   const scenario::Family& family = plan.family;
-  if (family.design.empty()) return {};
+  LookedAt looked;
+  if (family.design.empty()) return looked;
   const sweep::SweepColumns columns =
       sweep::read_sweep_columns(folder.file("results.csv"), family.design, command.show);
   std::optional<plot::DrawOptions> options;
   if (family.base.output.figures) options.emplace();
   if (options) options->formats = report::picture_formats(family.base.output);
   const sweep::Sensitivity found = sweep::sensitivity(columns);
-  std::vector<std::string> warnings =
-      sweep::draw_sweep(columns, found, family.title, folder, options);
+  if (!columns.outputs.empty()) looked.range = sweep::range_text(columns.outputs.front());
+  looked.warnings = sweep::draw_sweep(columns, found, family.title, folder, options);
   if (family.base.output.report)
     sweep::write_sweep_page(
         {.columns = columns,
@@ -136,9 +152,10 @@ std::vector<std::string> look_at(const sweep::SweepPlan& plan, const Sweep& comm
                    " completed, " + std::to_string(totals.diverged + totals.failed) + " failed, " +
                    std::to_string(totals.missing) + " missing.",
          .scenario = family.inputs.front().content,
-         .warnings = warnings},
+         .command = repeating(plan, command),
+         .warnings = looked.warnings},
         folder);
-  return warnings;
+  return looked;
 }
 
 int sweep_status(const Sweep& command, const Talk& talk) {
@@ -167,10 +184,9 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   folder.refuse_what_is_there();
   folder.open();
   const sweep::SweepAnswer answer = sweep::merge_sweep(plan, results, totals, folder);
-  const std::string undrawn =
-      warn_all(folder.put(totals.missing == 0 ? State::complete : State::incomplete,
-                          look_at(plan, command, totals, answer, folder)),
-               talk);
+  const LookedAt looked = look_at(plan, command, totals, answer, folder);
+  const std::string undrawn = warn_all(
+      folder.put(totals.missing == 0 ? State::complete : State::incomplete, looked.warnings), talk);
   std::string text = folder.path() + ": " + std::to_string(totals.completed) + " of " +
                      cases_text(totals.cases) + " completed";
   if (totals.diverged + totals.failed > 0)
@@ -178,7 +194,8 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   if (totals.missing > 0)
     text += ", " + std::to_string(totals.missing) + " missing (numbers " + totals.missing_numbers +
             "); `palpate sweep run` runs them";
-  if (const std::string error = answer.error(); !error.empty()) talk.say("Error: " + error + ".");
+  if (const std::string error = answer.error(); !error.empty())
+    talk.say((looked.range.empty() ? "Error:" : looked.range) + " " + error + ".");
   for (const std::string& line : answer.lines()) talk.say(line);
   talk.say(text + undrawn);
   talk.next("open", folder.path());
@@ -192,7 +209,7 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
 // The program as a shell takes it: as given, or this one.
 std::string program_word(const Sweep& command) {
   if (command.program.empty())
-    return sweep::shell_word(std::filesystem::read_symlink("/proc/self/exe").string());
+    return shell_word(std::filesystem::read_symlink("/proc/self/exe").string());
   for (const char c : command.program)
     if (static_cast<unsigned char>(c) < 0x20)
       throw InputError({},
@@ -271,7 +288,7 @@ std::string folder_of_parts(const Sweep& command) {
 int sweep_parts(const Sweep& command, const Talk& talk) {
   const sweep::SweepPlan plan = sweep::read_plan(command.subject, program_identity());
   const std::string start =
-      program_word(command) + " sweep run " + sweep::shell_word(folder_of_parts(command));
+      program_word(command) + " sweep run " + shell_word(folder_of_parts(command));
   const sweep::SweepResults results(plan);
   const std::vector<std::size_t> parts =
       sweep::unfinished_parts(plan, results, as_index(command.of));
@@ -327,7 +344,7 @@ int sweep_slurm(const Sweep& command, const Talk& talk) {
   const std::vector<std::size_t> parts =
       sweep::unfinished_parts(plan, sweep::SweepResults(plan), job.tasks);
   const std::string call =
-      "sbatch --array=" + sweep::number_ranges(parts, 0) + " " + sweep::shell_word(path);
+      "sbatch --array=" + sweep::number_ranges(parts, 0) + " " + shell_word(path);
   talk.event("submit", {{"command", parts.empty() ? "" : call},
                         {"job", path},
                         {"tasks", job.tasks},

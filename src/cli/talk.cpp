@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/shell_word.h"
 #include "base/text.h"
 #include "plot/gnuplot.h"
-#include "sweep/slurm.h"
 
 namespace palpate::cli {
 namespace {
@@ -73,7 +73,7 @@ void Talk::warn(const std::string& sentence) const {
 void Talk::error(const std::string& sentence) { write_line(sentence, "\033[31m"); }  // red
 
 void Talk::next(const std::string& verb, const std::string& path) const {
-  if (shows_progress()) say("next: palpate " + verb + " " + sweep::shell_word(path));
+  if (shows_progress()) say("next: palpate " + verb + " " + shell_word(path));
 }
 
 void Talk::annotate(const std::string& lines) {

@@ -114,8 +114,12 @@ std::string reason(const std::string& what) {
   if (const std::size_t colon = what.find(": ");
       what.ends_with("}") && colon != std::string::npos && cut(" not in {", name, rest)) {
     const std::string option = name.substr(0, colon);
-    return (option.empty() ? "" : ticked(option) + " got ") + ticked(name.substr(colon + 2)) +
-           ", which is none of " + joined(split(rest.substr(0, rest.size() - 1), ','), ", ");
+    const std::string given = name.substr(colon + 2);
+    const std::vector<std::string> known = split(rest.substr(0, rest.size() - 1), ',');
+    const auto near = nearest(given, known);
+    return (option.empty() ? "" : ticked(option) + " got ") + ticked(given) +
+           ", which is none of " + joined(known, ", ") +
+           (near ? "; did you mean " + ticked(*near) + "?" : "");
   }
   if (cut(" not expected: ", name, rest))
     return (name.ends_with("were") ? "these words are too many: `" : "this word is too many: `") +

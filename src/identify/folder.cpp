@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/shell_word.h"
 #include "base/text.h"
 #include "identify/tables.h"
 #include "page/page.h"
@@ -49,9 +50,30 @@ std::string figure_words(const std::string& name) {
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
 
+// The arguments without those that change no result, run where the files lie.
+std::string command_of(const std::vector<std::string>& argv, std::span<const PairFiles> pairs) {
+  const auto file_of = [&](const std::string& word) {
+    const std::string name = std::filesystem::path(word).filename().string();
+    const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const PairFiles& pair) {
+      return word == pair.measured || name == pair.family->inputs.front().name;
+    });
+    return known ? name : word;
+  };
+  std::string text = "palpate";
+  for (std::size_t i = 0; i < argv.size(); ++i) {
+    const std::string& word = argv[i];
+    if (word == "--out") ++i;
+    const bool idle = word == "--force" || word == "--quiet" || word == "-q" || word == "--json" ||
+                      word.starts_with("--out");
+    if (!idle) text += " " + shown_word(file_of(word));
+  }
+  return text;
+}
+
 // The page of an identification: what was found, how well it fits, and what it depends on.
 void write_page(const identify::Identification& found, std::span<const PairFiles> pairs,
-                const std::vector<HashedFile>& inputs, WholeFolder& folder) {
+                const std::vector<HashedFile>& inputs, const std::string& command,
+                WholeFolder& folder) {
   page::Page page(pairs.front().family->title, "identification");
   // The first unknown large, the others and what the fit is below.
   std::vector<std::string> lines = identified_sentences(found);
@@ -90,9 +112,10 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   }
   page.section("Scenario", asked, folded);
   page.section("How it was made",
-               page::making({.command = "palpate run scenario" + suffix_of(found, 0) + ".toml",
-                             .note = "The command repeats the fitted curve. `palpate identify` "
-                                     "with the files below repeats the fit."},
+               page::making({.command = command,
+                             .note = "It runs where the files below lie. Here, `palpate run "
+                                     "scenario" +
+                                     suffix_of(found, 0) + ".toml` computes the fitted curve."},
                             inputs, folder),
                folded);
   page::write(std::move(page), folder);
@@ -136,7 +159,7 @@ std::vector<std::string> write_identification(const Identification& found,
     inputs.push_back({std::filesystem::path(pair.measured).filename().string(), hash});
     manifest.inputs.push_back({pair.measured, hash});
   }
-  write_page(found, pairs, inputs, folder);
+  write_page(found, pairs, inputs, command_of(origin.argv, pairs), folder);
   manifest.outputs = folder.files();
   manifest.complete = true;
   folder.write("run.json", report::manifest_text(manifest));

@@ -84,7 +84,9 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
     std::vector<std::string> names;
     for (const Extra& extra : extras()) names.emplace_back(extra.name);
     for (const auto& key : keys) names.push_back(key.path);
-    auto near = nearest(name, names);
+    const auto begun = std::find_if(names.begin(), names.end(),
+                                    [&](const std::string& one) { return one.starts_with(name); });
+    std::optional<std::string> near = begun != names.end() ? *begun : nearest(name, names);
     if (!near) {  // without the table before it: `yong_modulus`
       std::vector<std::string> last;
       for (const std::string& one : names) last.push_back(one.substr(one.rfind('.') + 1));

@@ -21,6 +21,7 @@
 #include "record/record.h"
 #include "run/family.h"
 #include "run/findings.h"
+#include "run/pace.h"
 
 namespace palpate::live {
 namespace {
@@ -209,8 +210,8 @@ std::vector<std::string> Live::plan(const std::string& file) {
   cost_ = predict_cost(*scene_, *model_, limits.period, cost_frames);
   if (!model_->start_again()) model_ = std::make_unique<LiveModel>(*scene_);
   const std::string cost = "the model takes " + rounded_text(1e6 * cost_.median, 3) +
-                           " us a frame, " + rounded_text(1e6 * cost_.p99, 3) +
-                           " us in one of 100, of " + rounded_text(1e6 * limits.period, 3) + " us";
+                           " µs a frame, " + rounded_text(1e6 * cost_.p99, 3) +
+                           " µs in one of 100, of " + rounded_text(1e6 * limits.period, 3) + " µs";
   lines.push_back(cost);
   if (real && cost_.median > 0.8 * limits.period)
     throw InputError(place, cost +
@@ -294,7 +295,8 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   if (result.end.why == Why::model) record.outcome = record::Outcome::diverged;
   if (result.end.why == Why::link || result.end.why == Why::interrupted)
     record.outcome = record::Outcome::stopped;
-  if (record.outcome != record::Outcome::completed) record.reason = result.end.sentence;
+  if (record.outcome != record::Outcome::completed)
+    (void)run::end_early(record, record.outcome, result.end.sentence);
   record.last_stable_time = last_time;
   if (const auto imbalance = model.imbalance())
     record.findings.push_back({"energy_imbalance", *imbalance});

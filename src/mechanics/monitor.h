@@ -14,6 +14,10 @@ inline constexpr const char* not_finite =
     "`solver.allow_unstable`";
 inline constexpr const char* energy_grew =
     "energy grew without input; take a smaller `solver.time_step`, and no `solver.allow_unstable`";
+// Whether a run ended with one of the two above, in which the motion itself is wrong.
+[[nodiscard]] inline bool tells_instability(const std::string& sentence) {
+  return sentence == not_finite || sentence == energy_grew;
+}
 inline constexpr const char* not_positive =
     "the tangent stiffness is not positive; press less deep, or take a smaller `solver.time_step`";
 

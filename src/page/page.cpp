@@ -14,9 +14,9 @@ namespace palpate::page {
 const char* style() {
   return R"css(
 :root { color-scheme: light dark; --back: #ffffff; --ink: #1b1f24; --soft: #57606a;
-  --line: #d0d7de; --card: #f6f8fa; --link: #0b5cad; }
+  --line: #d0d7de; --card: #f6f8fa; --link: #0b5cad; --fail: #b3261e; }
 @media (prefers-color-scheme: dark) { :root { --back: #171717; --ink: #e6e8eb; --soft: #a2abb5;
-  --line: #3a424b; --card: #1e2329; --link: #7cb7ff; } }
+  --line: #3a424b; --card: #1e2329; --link: #7cb7ff; --fail: #ff8f85; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 1rem 1.2rem 3rem; max-width: 62rem; background: var(--back);
   color: var(--ink); font: 1rem/1.55 system-ui, sans-serif; overflow-wrap: anywhere; }
@@ -29,7 +29,7 @@ input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .skip { position: absolute; left: -999rem; } .skip:focus { position: static; }
 .kind { color: var(--soft); margin: 0; }
 .big { font-size: clamp(1.4rem, 5.5vw, 2rem); font-weight: 600; line-height: 1.2; }
-.big span { font-size: .65em; font-weight: 400; }
+.big span { font-size: .65em; font-weight: 400; } .failure { color: var(--fail); }
 .result { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .result p { margin: .35rem 0; }
 nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
@@ -124,8 +124,9 @@ Page::Page(std::string title, std::string kind)
 
 void Page::answer(const std::vector<std::string>& sentences) { answer_ += paragraphs(sentences); }
 
-void Page::headline(const std::string& value, const std::string& error) {
-  answer_ += element("p", text(value + " ") + element("span", error), {{"class", "big"}});
+void Page::headline(const std::string& value, const std::string& error, Tone tone) {
+  answer_ += element("p", text(value + " ") + element("span", error),
+                     {{"class", tone == Tone::failure ? "big failure" : "big"}});
 }
 
 void Page::section(const std::string& heading, const Markup& body, Shown shown) {
@@ -231,7 +232,7 @@ Markup all_figures(const WholeFolder& folder,
 Markup making(const Making& made, const std::vector<HashedFile>& inputs,
               const WholeFolder& folder) {
   Markup all = element(
-      "p", text("This repeats the result in this folder, with the same bytes on "
+      "p", text("This repeats the result in this folder, its tables with the same bytes on "
                 "every x86-64 processor, by the same build of palpate " PALPATE_VERSION ":"));
   all += element("pre", element("code", made.command), {{"tabindex", "0"}});
   if (!made.note.empty()) all += paragraphs({made.note});

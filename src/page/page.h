@@ -23,8 +23,10 @@ class Page {
   // `kind` says what the page is about: `run`, `sweep`, ...
   Page(std::string title, std::string kind);
 
-  // At the head of the page: one large line, such as a force and its error, then anything else.
-  void headline(const std::string& value, const std::string& error);
+  // At the head of the page: one large line, such as a force and its error, then anything else. A
+  // failure has the colour of a warning.
+  enum class Tone { result, failure };
+  void headline(const std::string& value, const std::string& error, Tone tone = Tone::result);
   void answer(const Markup& more) { answer_ += more; }
   void answer(const std::vector<std::string>& sentences);
   // A section with an entry in the contents. An empty body makes no section. A folded one shows its

@@ -52,7 +52,15 @@ struct Answer {
   std::string verdict;    // of a live run: whether measured force and model agree
   bool complete = true;   // whether nothing that needs a warning is neglected
   std::optional<double> stated_error;  // relative, of the force or strain; empty if not estimated
+  // What `error` says beside the error; both are empty where none is estimated.
+  std::string tolerance;  // "tolerance 5 %, and no model comes nearer"
+  std::string uncounted;  // what the error does not contain, "viscosity"; empty if nothing
 };
+
+// ", not counting viscosity"; empty if the error contains everything.
+[[nodiscard]] inline std::string uncounted_text(const Answer& answer) {
+  return answer.uncounted.empty() ? "" : ", not counting " + answer.uncounted;
+}
 
 // One row of force_indentation.csv, SI.
 struct ContactRow {
@@ -110,7 +118,8 @@ enum class Outcome { completed, diverged, interrupted, stopped };
 struct CaseRecord {
   std::string name;
   Outcome outcome = Outcome::completed;
-  std::string reason;             // a sentence; empty if completed
+  std::string reason;     // a sentence; empty if completed
+  bool unstable = false;  // ended because the motion grew by itself: no row of it is a result
   double last_stable_time = 0.0;  // s
   std::vector<ContactRow> contact;
   std::vector<MeasuredRow> measured;  // one per row of `contact` in a live run; otherwise empty

@@ -62,26 +62,54 @@ std::string models(const std::vector<record::CaseRecord>& records) {
   for (const auto& [model, count] : counts)
     text += (text.ends_with(": ") ? "" : ", ") + model + " in " + std::to_string(count) + " of " +
             std::to_string(records.size());
-  return text + "; `palpate explain` says why.";
+  return text;
 }
 
+// ", not counting viscosity", ", not counting viscosity in 3 of 5 cases".
+std::string uncounted(const std::vector<record::CaseRecord>& records) {
+  const record::Answer* longest = nullptr;
+  std::ptrdiff_t cases = 0;
+  for (const record::CaseRecord& record : records) {
+    if (record.answer.uncounted.empty()) continue;
+    ++cases;
+    if (longest == nullptr || record.answer.uncounted.size() > longest->uncounted.size())
+      longest = &record.answer;
+  }
+  if (longest == nullptr) return "";
+  return record::uncounted_text(*longest) + (cases == std::ssize(records)
+                                                 ? ""
+                                                 : " in " + std::to_string(cases) + " of " +
+                                                       std::to_string(records.size()) + " cases");
+}
+
+// "errors of about 1.2 % to 6.1 % (tolerance 5 %), not counting viscosity"
+std::string errors(const std::vector<record::CaseRecord>& records) {
+  const auto error = range_of(records, [](const auto& one) { return one.answer.stated_error; });
+  if (!error) return "";
+  const std::string low = error_text(error->low), high = error_text(error->high);
+  std::string text = "errors of " + low;
+  if (low != high) text += " to " + (error->high > 1.0 ? high : percent_text(error->high));
+  if (const std::string& tolerance = error->most->answer.tolerance; !tolerance.empty())
+    text += " (" + tolerance + ")";
+  return text + uncounted(records);
+}
+
+// The largest force of a case that diverged is none of the tissue's.
 std::string peaks(const std::vector<record::CaseRecord>& records) {
-  std::string text = "Nothing was reached";
+  const auto unstable = std::count_if(records.begin(), records.end(),
+                                      [](const auto& record) { return record.unstable; });
+  const std::string diverged =
+      std::to_string(unstable) + " of " + std::to_string(records.size()) + " cases diverged";
+  std::string text = unstable > 0 ? diverged : "Nothing was reached";
   if (const auto range = range_of(records, [](const auto& one) {
-        const auto peak = record::peak_of(one);
+        const auto peak = one.unstable ? std::nullopt : record::peak_of(one);
         return peak ? std::optional(peak->value) : std::nullopt;
       })) {
     const record::Peak peak = *record::peak_of(*range->most);
-    text = range_text("Peak " + peak.of, *range, peak.unit);
+    text = (unstable > 0 ? diverged + "; peak " : "Peak ") + range_text(peak.of, *range, peak.unit);
   }
-  if (const auto error =
-          range_of(records, [](const auto& one) { return one.answer.stated_error; })) {
-    const std::string low = error_text(error->low), high = error_text(error->high);
-    text += low == high ? ", with errors of " + low
-                        : ", with errors of " + low + " to " +
-                              (error->high > 1.0 ? high : percent_text(error->high));
-  }
-  return text + ".";
+  const std::string with = errors(records);
+  return text + (with.empty() ? "" : ", with ") + with + ".";
 }
 
 }  // namespace
@@ -112,6 +140,24 @@ std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
   return lines;
 }
 
+namespace {
+
+// One line per kind of neglected effect.
+void add_neglected(const std::vector<record::CaseRecord>& records,
+                   std::vector<std::string>& lines) {
+  std::vector<NamedSentence> neglected;
+  constexpr std::string_view begins = "Neglected: ";
+  for (const record::CaseRecord& record : records)
+    if (const std::string& text = record.answer.neglected; !record.answer.complete)
+      neglected.push_back({record.name, text.substr(text.starts_with(begins) ? begins.size() : 0)});
+  if (neglected.empty())
+    lines.push_back(records.front().answer.neglected);
+  else
+    for (const std::string& line : said_once(neglected)) lines.push_back("Neglected in " + line);
+}
+
+}  // namespace
+
 std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records) {
   if (records.empty()) return {};
   if (records.size() == 1) {
@@ -119,14 +165,16 @@ std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& rec
     if (answer.neglected.empty()) return {answer.model, answer.error};  // no model ran
     return {answer.model, answer.error, answer.neglected};
   }
-  std::vector<std::string> lines{models(records), peaks(records)};
-  std::vector<NamedSentence> neglected;
-  for (const record::CaseRecord& record : records)
-    if (!record.answer.complete) neglected.push_back({record.name, record.answer.neglected});
-  if (neglected.empty())
-    lines.push_back(records.front().answer.neglected);
-  else
-    for (std::string& line : said_once(neglected)) lines.push_back(std::move(line));
+  std::vector<std::string> lines{models(records) + "; `palpate explain` says why.", peaks(records)};
+  add_neglected(records, lines);
+  return lines;
+}
+
+std::vector<std::string> forecast_lines(const std::vector<record::CaseRecord>& records) {
+  std::vector<std::string> lines{models(records) + "."};
+  if (const std::string text = errors(records); !text.empty())
+    lines.push_back(capitalized(text) + ".");
+  add_neglected(records, lines);
   return lines;
 }
 

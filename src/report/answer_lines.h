@@ -22,4 +22,8 @@ struct NamedSentence {
 // (strain, stress) with its errors, and one line per kind of neglected effect.
 [[nodiscard]] std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records);
 
+// The same of several cases before any has run: models, errors, neglected effects.
+[[nodiscard]] std::vector<std::string> forecast_lines(
+    const std::vector<record::CaseRecord>& records);
+
 }  // namespace palpate::report

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/shell_word.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "fit/fit_table.h"
@@ -507,11 +508,18 @@ std::string peak_text(const record::CaseRecord& record) {
   return peak ? rounded_text(peak->value, 3) + peak->unit : "no result";
 }
 
+// `diverged at 0.0574 s`
+std::string divergence(const record::CaseRecord& record) {
+  return "diverged at " + rounded_text(record.last_stable_time, 3) + " s";
+}
+
 std::string peak_error(const record::CaseRecord& record) {
   const std::optional<double>& error = record.answer.stated_error;
+  if (record.unstable) return divergence(record);
   if (record.outcome != record::Outcome::completed) return record::reached_text(record);
   if (!error) return "error not known";
-  return *error > 1.0 ? error_text(*error) + " off" : "± " + percent_text(*error);
+  return (*error > 1.0 ? error_text(*error) + " off" : "± " + percent_text(*error)) +
+         record::uncounted_text(record.answer);
 }
 
 // Why a case ended early, as a sentence.
@@ -615,8 +623,12 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     const record::Answer& answer = record.answer;
     if (answer.neglected.empty()) return page.answer({answer.model, answer.error});  // no model ran
     const auto peak = record::peak_of(record);
-    page.headline(peak ? "Peak " + peak->of + " " + peak_text(record) : "No result",
-                  peak_error(record));
+    if (record.unstable)
+      page.headline(capitalized(divergence(record)), first_statement(record.reason),
+                    page::Page::Tone::failure);
+    else
+      page.headline(peak ? "Peak " + peak->of + " " + peak_text(record) : "No result",
+                    peak_error(record));
     if (!record.reason.empty()) page.answer({early_end(record)});
     const scenario::Case& one = scenario::case_named(family, record.name);
     page.answer({tested(one, record)});
@@ -627,7 +639,10 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     std::vector<std::string> lines = answer_lines(records);
     std::erase(lines[1], '`');
     const std::size_t error = std::min(lines[1].find(", with"), lines[1].size());
-    page.headline(lines[1].substr(0, error), lines[1].substr(std::min(error + 2, lines[1].size())));
+    const bool none = std::all_of(records.begin(), records.end(),
+                                  [](const auto& record) { return record.unstable; });
+    page.headline(lines[1].substr(0, error), lines[1].substr(std::min(error + 2, lines[1].size())),
+                  none ? page::Page::Tone::failure : page::Page::Tone::result);
     std::vector<NamedSentence> ends;
     for (const record::CaseRecord& record : records)
       if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
@@ -639,6 +654,13 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     else
       page.answer({first_statement(lines[0]), first_statement(lines[2])});
   }
+}
+
+// A single case is named after its file.
+std::string repeating(const scenario::Family& family) {
+  const std::string file = shown_word(family.name + ".toml");
+  if (family.cases.size() > 1 || file == "scenario.toml") return "palpate run scenario.toml";
+  return "cp scenario.toml " + file + "\npalpate run " + file;
 }
 
 }  // namespace
@@ -677,7 +699,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
                                 [](const auto& record) { return !record.attached.empty(); });
   page.section(
       "How it was made",
-      page::making({.command = "palpate run scenario.toml",
+      page::making({.command = repeating(family),
                     .note = live ? "A live run follows its device, so that this command repeats "
                                    "the loading history and not the motion of the device."
                                  : "How long it took stands in run.json."},

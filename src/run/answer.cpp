@@ -48,20 +48,26 @@ class Words {
   }
 
   // The sentence's part on the error of the largest force, or of the strain.
-  [[nodiscard]] std::string error(std::optional<double> error,
-                                  const std::vector<Neglected>& neglected) const {
-    if (!error) return "an error that is not estimated";
-    std::string uncounted;
+  [[nodiscard]] static std::string error(const record::Answer& answer) {
+    if (!answer.stated_error) return "an error that is not estimated";
+    return "an error of " + error_text(*answer.stated_error) + " (" + answer.tolerance + ")" +
+           record::uncounted_text(answer);
+  }
+
+  // Gives an answer its error, with what is said beside it.
+  void state(std::optional<double> error, const std::vector<Neglected>& neglected,
+             record::Answer& answer) const {
+    answer.stated_error = error;
+    if (!error) return;
+    const double tolerance = scene_.scenario.solver.tolerance;
+    answer.tolerance = "tolerance " + percent_text(tolerance);
+    if (!scene_.choice.given && *error > tolerance)
+      answer.tolerance += follows_hertz()
+                              ? ", and with `contact.coupling = \"one_way\"` no model comes nearer"
+                              : ", and no model comes nearer";
     for (const Neglected& one : neglected)
-      if (!one.beside.empty()) uncounted += (uncounted.empty() ? "" : " and ") + one.beside;
-    std::string text = "an error of " + error_text(*error) + " (tolerance " +
-                       percent_text(scene_.scenario.solver.tolerance);
-    if (scene_.choice.given || *error <= scene_.scenario.solver.tolerance)
-      text += ")";
-    else
-      text += follows_hertz() ? ", and with `contact.coupling = \"one_way\"` no model comes nearer)"
-                              : ", and no model comes nearer)";
-    return text + (uncounted.empty() ? "" : ", not counting " + uncounted);
+      if (!one.beside.empty())
+        answer.uncounted += (answer.uncounted.empty() ? "" : " and ") + one.beside;
   }
 
   [[nodiscard]] static std::string neglected(const std::vector<Neglected>& all, double tolerance) {
@@ -198,13 +204,12 @@ Expected expect(const scene::Scene& scene) {
   const std::optional<double> error = stated_error(scene, expected.mesh_error);
   expected.neglected = neglected(scene);
   const Words words(scene, expected.mesh_error);
-  expected.answer = {
-      .model = words.model(),
-      .error = quantity(scene.scenario) + " has " + words.error(error, expected.neglected) + ".",
-      .neglected = Words::neglected(expected.neglected, scene.scenario.solver.tolerance),
-      .verdict = {},
-      .complete = expected.neglected.empty(),
-      .stated_error = error};
+  record::Answer& answer = expected.answer;
+  answer.model = words.model();
+  answer.neglected = Words::neglected(expected.neglected, scene.scenario.solver.tolerance);
+  answer.complete = expected.neglected.empty();
+  words.state(error, expected.neglected, answer);
+  answer.error = quantity(scene.scenario) + " has " + Words::error(answer) + ".";
   return expected;
 }
 
@@ -212,23 +217,22 @@ record::Answer answer(const scene::Scene& scene, const record::CaseRecord& recor
   const std::optional<double> mesh_error = record::number_of(record, "mesh_error");
   const Words words(scene, mesh_error);
   const auto peak = record::peak_of(record);
-  std::string result =
-      peak ? "Peak " + peak->of + ": " + rounded_text(peak->value, 3) + peak->unit : "No result";
-  std::optional<double> error;
-  if (record.outcome == record::Outcome::completed) error = stated_error(scene, mesh_error);
   const std::vector<Neglected> effects = neglected(scene);
-  if (record.outcome == record::Outcome::completed)
-    result += ", with " + words.error(error, effects) + ".";
-  else
-    result +=
-        peak ? " " + record::reached_text(record) + ", where the run ended; no error is stated."
-             : ": the run ended at its start.";
-  return {.model = words.model(),
-          .error = result,
-          .neglected = Words::neglected(effects, scene.scenario.solver.tolerance),
-          .verdict = {},
-          .complete = effects.empty(),
-          .stated_error = error};
+  record::Answer answer;
+  answer.model = words.model();
+  answer.neglected = Words::neglected(effects, scene.scenario.solver.tolerance);
+  answer.complete = effects.empty();
+  answer.error =
+      peak ? "Peak " + peak->of + ": " + rounded_text(peak->value, 3) + peak->unit : "No result";
+  if (record.outcome == record::Outcome::completed) {
+    words.state(stated_error(scene, mesh_error), effects, answer);
+    answer.error += ", with " + Words::error(answer) + ".";
+  } else {
+    answer.error += peak ? " " + record::reached_text(record) + ", where the run " +
+                               (record.unstable ? "diverged" : "ended") + "; no error is stated."
+                         : ": the run ended at its start.";
+  }
+  return answer;
 }
 
 namespace {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/monitor.h"
+
 namespace palpate::run {
 
 namespace {
@@ -37,6 +39,7 @@ Pace make_open_pace(const scene::Scene& scene, double longest) {
 bool end_early(record::CaseRecord& record, record::Outcome outcome, const std::string& reason) {
   record.outcome = outcome;
   record.reason = reason;
+  record.unstable = mechanics::tells_instability(reason);
   return false;
 }
 

@@ -299,7 +299,7 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
 
 namespace {
 
-std::string micro(double seconds) { return rounded_text(1e6 * seconds, 4) + " us"; }
+std::string micro(double seconds) { return rounded_text(1e6 * seconds, 4) + " µs"; }
 
 const LimitRow* find(const Survey& survey, const std::string& axis, const std::string& integrator,
                      const std::string& damping, std::optional<double> value = {}) {

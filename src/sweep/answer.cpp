@@ -47,6 +47,10 @@ void SweepAnswer::see(const SweepRow& row, std::size_t number) {
     errors_.high = std::max(errors_.high, *error);
   }
   for (const std::string& warning : row.warnings) {
+    if (warning.starts_with(not_counted)) {
+      ++uncounted_cases_;
+      if (warning.size() > uncounted_.size()) uncounted_ = warning;
+    }
     if (!warning.starts_with(begins)) continue;
     std::size_t from = begins.size();
     for (std::size_t end = 0; end != std::string::npos; from = end + also.size()) {
@@ -76,7 +80,11 @@ std::string SweepAnswer::error() const {
   };
   const std::string low = text(errors_.low), high = text(errors_.high);
   return "± " + low + (low == high ? "" : " to " + high) +
-         (unknown_ == 0 ? "" : ", not known in " + of_cases(unknown_, cases_));
+         (unknown_ == 0 ? "" : ", not known in " + of_cases(unknown_, cases_)) +
+         (uncounted_cases_ == 0 ? ""
+          : uncounted_cases_ == cases_
+              ? ", " + uncounted_
+              : ", " + uncounted_ + " in " + of_cases(uncounted_cases_, cases_));
 }
 
 std::vector<std::string> SweepAnswer::lines() const {

@@ -17,7 +17,8 @@ class SweepAnswer {
   // `number`: of the case, from 1. Rows of cases that did not end as they should count for nothing.
   void see(const SweepRow& row, std::size_t number);
 
-  // `± 3 %`, `± 3 % to 41 %` of the completed cases; a sentence's part where an error is not known.
+  // `± 3 %`, `± 3 % to 41 %, not counting viscosity` of the completed cases; a sentence's part
+  // where an error is not known.
   [[nodiscard]] std::string error() const;
 
   // The models, then one line per neglected effect with its largest change. Empty without cases.
@@ -36,6 +37,8 @@ class SweepAnswer {
 
   std::size_t cases_ = 0;
   std::size_t unknown_ = 0;  // cases without a stated error
+  std::size_t uncounted_cases_ = 0;
+  std::string uncounted_;  // the longest sentence on what an error does not contain
   std::map<std::string, std::size_t> models_;
   Ends errors_;  // as parts of 1
   std::vector<Effect> effects_;

@@ -50,6 +50,8 @@ record::Table curve_of(const record::CaseRecord& record) {
 SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record, bool keeps_curve) {
   SweepRow row{.reason = record.reason, .name = record.name, .warnings = record.warnings};
   if (!record.answer.complete) row.warnings.push_back(record.answer.neglected);
+  if (!record.answer.uncounted.empty())
+    row.warnings.push_back(std::string(not_counted) + record.answer.uncounted);
   if (record.outcome == record::Outcome::diverged) row.outcome = SweepOutcome::diverged;
   for (const record::Finding& finding : record.findings)
     if (finding.name != "outcome") row.values.push_back(finding);

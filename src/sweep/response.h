@@ -65,6 +65,9 @@ struct Response {
     const SweepColumns& columns, const Sensitivity& found, const std::string& title,
     WholeFolder& folder, const std::optional<plot::DrawOptions>& options = plot::DrawOptions{});
 
+// `Peak force 0.0157 to 1.76 N`
+[[nodiscard]] std::string range_text(const OutputColumn& output);
+
 // What the page of a merged sweep shows.
 struct SweepShown {
   const SweepColumns& columns;
@@ -73,6 +76,7 @@ struct SweepShown {
   std::string title;
   std::string totals;                 // a sentence: how many cases were completed
   std::string scenario;               // the text that was planned
+  std::string command;                // that repeats it, run in the folder of the page
   std::vector<std::string> warnings;  // sentences
 };
 

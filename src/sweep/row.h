@@ -16,6 +16,9 @@ namespace palpate::sweep {
 enum class SweepOutcome : std::uint8_t { completed, diverged, failed };
 [[nodiscard]] const char* outcome_word(SweepOutcome outcome);
 
+// Begins the sentence, among the warnings of a row, on what its stated error does not contain.
+inline constexpr std::string_view not_counted = "not counting ";
+
 // The part of a row that is kept in memory for every case.
 struct SweepHead {
   std::uint64_t id = 0;       // of the case

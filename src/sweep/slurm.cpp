@@ -1,6 +1,8 @@
 // The job file: a bash script that passes on signals and queues an unfinished task again.
 #include "sweep/slurm.h"
 
+#include "base/shell_word.h"
+
 namespace palpate::sweep {
 namespace {
 
@@ -19,12 +21,6 @@ std::string batch_text(const std::string& text) {
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 std::string number_ranges(const std::vector<std::size_t>& numbers, std::size_t most) {
   std::string text;

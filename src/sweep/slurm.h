@@ -30,9 +30,6 @@ inline constexpr std::size_t usual_array = 1000;
                                                         const SweepResults& results,
                                                         std::size_t parts);
 
-// The text in single quotes, as one word for a shell.
-[[nodiscard]] std::string shell_word(const std::string& text);
-
 // Ascending numbers as `1-3,7`; after `most` ranges (0: no limit) follows `...`.
 [[nodiscard]] std::string number_ranges(const std::vector<std::size_t>& numbers, std::size_t most);
 

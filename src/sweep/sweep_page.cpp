@@ -10,17 +10,6 @@
 namespace palpate::sweep {
 namespace {
 
-// `Peak force 0.0157 to 1.76 N`
-std::string range_text(const OutputColumn& output) {
-  const Ends range = ends(output.values);
-  const std::string label = output_label(output.name);
-  const std::size_t unit = std::min(label.find(" ("), label.size());
-  std::string text = label.substr(0, unit) + " " + rounded_text(range.low, 3) + " to " +
-                     rounded_text(range.high, 3);
-  if (unit < label.size()) text += " " + label.substr(unit + 2, label.size() - unit - 3);
-  return text;
-}
-
 // `case 3 (tissue.young_modulus 5 kPa)`, by the number in results.csv
 std::string case_text(const SweepColumns& columns, std::size_t at) {
   std::string text;
@@ -76,6 +65,16 @@ std::string figure_words(const std::string& name) {
 
 }  // namespace
 
+std::string range_text(const OutputColumn& output) {
+  const Ends range = ends(output.values);
+  const std::string label = output_label(output.name);
+  const std::size_t unit = std::min(label.find(" ("), label.size());
+  std::string text = label.substr(0, unit) + " " + rounded_text(range.low, 3) + " to " +
+                     rounded_text(range.high, 3);
+  if (unit < label.size()) text += " " + label.substr(unit + 2, label.size() - unit - 3);
+  return text;
+}
+
 void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   const Sensitivity& found = shown.found;
   page::Page page(shown.title, "sweep");
@@ -104,11 +103,7 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   page.section("Warnings", page::paragraphs(shown.warnings));
   constexpr auto folded = page::Page::Shown::folded;
   page.section("Scenario", page::folded("The scenario as written", shown.scenario), folded);
-  page.section("How it was made",
-               page::making({.command = "palpate sweep plan SCENARIO.toml --out PLAN\n"
-                                        "palpate sweep run PLAN\npalpate sweep merge PLAN"},
-                            {}, folder),
-               folded);
+  page.section("How it was made", page::making({.command = shown.command}, {}, folder), folded);
   page::write(std::move(page), folder);
 }
 

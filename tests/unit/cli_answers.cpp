@@ -277,8 +277,9 @@ TEST_F(Quickstart, of_many_cases_is_summed_up) {
   const Ended ended = palpate(folder_.path(), {"run", "many.toml"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_TRUE(says(ended, "Models: layer in 9 of 9; ")) << ended.err;
-  EXPECT_TRUE(says(ended, "Peak force: ")) << ended.err;
-  EXPECT_TRUE(says(ended, "and so in 8 more cases: Neglected: viscosity, which would add "))
+  EXPECT_TRUE(says(ended, " % (tolerance 5 %), not counting viscosity.\n")) << ended.err;
+  EXPECT_TRUE(
+      says(ended, "\nNeglected in `10 kPa`, and so in 8 more cases: viscosity, which would "))
       << ended.err;
   EXPECT_LE(split(trimmed(ended.err), '\n').size(), 6U) << ended.err;
 }

@@ -84,6 +84,10 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
   EXPECT_NE(read_file(result / "curve.svg").find(">Measured - model ("), std::string::npos)
       << "gnuplot omits a label that has no place";
 
+  EXPECT_NE(read_file(result / "report.html")
+                .find("palpate identify measured.csv press.toml --unknown &#39;tissue.young_modulus"
+                      "=1..500 kPa&#39;<"),
+            std::string::npos);
   write_file(folder_ / "again.toml", read_file(result / "scenario.toml"));
   const auto run = palpate(folder_.path(), {"run", "again.toml"});
   ASSERT_EQ(run.code, 0) << run.err;

@@ -88,6 +88,21 @@ TEST(ARunThatEndsEarly, keeps_its_curve_and_shows_no_force_where_there_is_none) 
   EXPECT_EQ(record::read_csv(folder / "none/thin/findings.csv").find("peak_force_N"), -1);
 }
 
+// Where the motion itself went wrong, no force is shown as a result.
+TEST(ARunThatDiverges, says_so_first_on_page_and_terminal) {
+  const TemporaryFolder folder;
+  const Ended ended =
+      palpate(folder.path(), {"run", project_file("scenarios/failures/01_step_above_limit.toml")});
+  EXPECT_EQ(ended.code, 4);
+  EXPECT_TRUE(says(ended, "mm, where the run diverged; no error is stated.")) << ended.err;
+  EXPECT_TRUE(ended.err.ends_with(": 1 of 1 case, 1 ended early\n")) << ended.err;
+  const std::string page = read_file(folder / "out/01_step_above_limit/report.html");
+  EXPECT_NE(page.find("<p class=\"big failure\">Diverged at 0.0574 s <span>energy grew without "
+                      "input</span></p>"),
+            std::string::npos);
+  EXPECT_EQ(page.find("<p class=\"big\">"), std::string::npos);
+}
+
 // What the first screen of a page says.
 std::string head_of(const fs::path& page) {
   const std::string html = read_file(page);
@@ -154,11 +169,22 @@ TEST_F(OfAPress, has_all_its_files) {
 TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
   const std::string headline = headline_of(result() / "report.html");
   EXPECT_NE(headline.find(" N "), std::string::npos) << headline;
-  EXPECT_NE(headline.find("%"), std::string::npos) << headline;
+  EXPECT_TRUE(headline.ends_with(" %, not counting viscosity")) << headline;
   const std::string page = read_file(result() / "report.html");
   EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm; underside fixed (bonded base)."),
             std::string::npos);
   EXPECT_NE(ended_.err.find("\nIt took "), std::string::npos) << ended_.err;
+}
+
+// As a person would: in its folder, line by line.
+TEST_F(OfAPress, is_repeated_by_the_commands_of_its_page) {
+  const std::string commands = "cp scenario.toml press.toml\npalpate run press.toml";
+  EXPECT_NE(read_file(result() / "report.html").find(commands), std::string::npos);
+  const TemporaryFolder folder;
+  fs::copy_file(result() / "scenario.toml", folder / "press.toml");
+  ASSERT_EQ(palpate(folder.path(), {"run", "press.toml"}).code, 0);
+  for (const char* table : {"force_indentation.csv", "findings.csv", "fits.csv", "scenario.toml"})
+    EXPECT_EQ(read_file(folder / "out/press" / table), read_file(result() / table)) << table;
 }
 
 TEST_F(OfAPress, has_the_promised_columns) {  // DESIGN.md section 6

@@ -29,6 +29,8 @@ TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_NE(ended.out.find("central differences are stable below"), std::string::npos);
   EXPECT_NE(ended.out.find("measured limits lie within"), std::string::npos);
+  EXPECT_NE(ended.out.find(" µs"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find(" us"), std::string::npos) << ended.out;
   EXPECT_EQ(names_in(folder_ / "out"), std::set<std::string>{"small_stability"}) << "no leftovers";
   const fs::path result = folder_ / "out/small_stability";
   const auto names = names_in(result);

@@ -24,7 +24,8 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   EXPECT_NE(after.out.find("completed   6\n"), std::string::npos);
   const Ended merge = sweep({"merge", "out/s_sweep"});
   EXPECT_EQ(merge.code, 0);
-  EXPECT_TRUE(merge.err.starts_with("Error: ± ")) << merge.err;
+  EXPECT_TRUE(merge.err.starts_with("Peak force 0.00")) << merge.err;
+  EXPECT_NE(merge.err.find(", not counting viscosity.\n"), std::string::npos) << merge.err;
   EXPECT_NE(merge.err.find("\nModel: hertz in 6 of 6 cases.\nNeglected in 6 of 6 cases"),
             std::string::npos)
       << merge.err;
@@ -36,6 +37,7 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
                                    "sensitivity.gp", "sensitivity.svg"}));
   const fs::path page = folder_ / "out/s_sweep/merged/report.html";
   EXPECT_NE(headline_of(page).find(" N ± "), std::string::npos) << headline_of(page);
+  EXPECT_TRUE(headline_of(page).ends_with(", not counting viscosity")) << headline_of(page);
   for (const char* line : {"<p>Least in case ", "<p>Model: hertz in 6 of 6 cases.</p>",
                            "<p>Neglected in 6 of 6 cases", "<p>6 of 6 cases completed, 0 failed"})
     EXPECT_NE(read_file(page).find(line), std::string::npos) << line;
@@ -46,6 +48,18 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   const record::Table table =
       record::read_csv((folder_ / "out/s_sweep/merged/results.csv").string());
   EXPECT_EQ(table.rows.size(), 6U);
+  // The page's own commands, run as they stand in its folder.
+  const std::string commands =
+      "palpate sweep plan ../inputs/scenario.toml\npalpate sweep run out/scenario_sweep\npalpate "
+      "sweep merge out/scenario_sweep";
+  EXPECT_NE(read_file(page).find(commands), std::string::npos);
+  for (const std::string& line : split(commands, '\n')) {
+    const Ended again = palpate(page.parent_path(), split(line.substr(line.find(' ') + 1), ' '));
+    ASSERT_EQ(again.code, 0) << line << "\n" << again.err;
+  }
+  EXPECT_EQ(read_file(page.parent_path() / "out/scenario_sweep/merged/results.csv"),
+            read_file(page.parent_path() / "results.csv"));
+  fs::remove_all(page.parent_path() / "out");
   EXPECT_EQ((std::vector<std::string>(table.columns.begin(), table.columns.begin() + 6)),
             (std::vector<std::string>{"number", "id", "tissue.young_modulus_kPa",
                                       "tissue.poisson_ratio", "outcome", "reason"}));
@@ -106,7 +120,7 @@ TEST_F(SweepVerb, MissingCasesAreRows) {
   EXPECT_TRUE(merge.err.starts_with(
       "warning: sensitivity of `peak_force_N`: 4 of 6 cases have no value, and the indices of a "
       "grid need all; run what is missing, narrow the ranges to where cases complete, or take "
-      "`design = \"saltelli\"`\nError: "))
+      "`design = \"saltelli\"`\nPeak force "))
       << merge.err;
   EXPECT_TRUE(
       merge.err.ends_with("out/s_sweep/merged: 2 of 6 cases completed, 4 missing (numbers "
@@ -279,6 +293,18 @@ TEST_F(SweepVerb, ExplainSaysTheCost) {
   EXPECT_EQ(said.code, 0);
   EXPECT_NE(said.out.find("\nThe whole takes about "), std::string::npos) << said.out;
   EXPECT_NE(said.out.find(" of processor time: 6 cases of "), std::string::npos) << said.out;
+  // What all cases have together comes first, then one of them at length, whichever is asked for.
+  EXPECT_TRUE(said.out.starts_with("Models: hertz in 6 of 6.\nErrors of ")) << said.out;
+  EXPECT_NE(said.out.find("\ncase 10 kPa_0.3: "), std::string::npos) << said.out;
+  EXPECT_EQ(said.out.find("\ncase 0.1 MPa_0.45: "), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("`--case '0.1 MPa_0.45'` shows the last."), std::string::npos);
+  const Ended last = palpate(folder_.path(), {"explain", "s.toml", "--case", "0.1 MPa_0.45"});
+  EXPECT_NE(last.out.find("\ncase 0.1 MPa_0.45: "), std::string::npos) << last.out;
+  const Ended none = palpate(folder_.path(), {"explain", "s.toml", "--case", "0.1 MPa_0.46"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("s.toml: has no case `0.1 MPa_0.46`; did you mean `0.1 MPa_0.45`?"),
+            std::string::npos)
+      << none.err;
   // Of more cases than `run` takes, the first is explained.
   const Ended many =
       palpate(folder_.path(),

@@ -67,6 +67,9 @@ TEST(Unknowns, AreRefusedInSentences) {
   EXPECT_EQ(refusal({"tissue.young_modulos=1..2 kPa"}),
             "palpate: `--unknown tissue.young_modulos=1..2 kPa` names no number of this scenario; "
             "did you mean `tissue.young_modulus`?");
+  EXPECT_EQ(refusal({"tissue.young=1..2 kPa"}),
+            "palpate: `--unknown tissue.young=1..2 kPa` names no number of this scenario; did you "
+            "mean `tissue.young_modulus`?");
   EXPECT_EQ(refusal({"yong_modulus"}),
             "palpate: `--unknown yong_modulus` names no number of this scenario; did you mean "
             "`tissue.young_modulus`?");

@@ -31,6 +31,16 @@ TEST(SweepAnswers, TellModelsErrorsAndTheLargestOfEachEffect) {
                    "Neglected in 1 of 3 cases: an edge, which may change it by up to 12 %."}));
 }
 
+TEST(SweepAnswers, TellWhatTheirErrorsDoNotCount) {
+  SweepAnswer answer;
+  SweepRow viscous = row("hertz", 0.012);
+  viscous.warnings.emplace_back("not counting viscosity");
+  answer.see(viscous, 1);
+  EXPECT_EQ(answer.error(), "± 1.2 %, not counting viscosity");
+  answer.see(row("hertz", 0.012), 2);
+  EXPECT_EQ(answer.error(), "± 1.2 %, not counting viscosity in 1 of 2 cases");
+}
+
 TEST(SweepAnswers, SayWhereNothingIsNeglectedOrKnown) {
   SweepAnswer answer;
   EXPECT_EQ(answer.error(), "");

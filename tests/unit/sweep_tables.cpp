@@ -1,6 +1,7 @@
 // Swept words as numbers with a unit, numbers as ranges, words for a shell.
 #include <gtest/gtest.h>
 
+#include "base/shell_word.h"
 #include "record/table.h"
 #include "sweep/plan_file.h"
 #include "sweep/slurm.h"
@@ -61,6 +62,8 @@ TEST(SweepSlurm, numbers_are_told_as_ranges) {
 TEST(SweepSlurm, words_are_safe_in_a_shell) {
   EXPECT_EQ(shell_word("a b"), "'a b'");
   EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
+  EXPECT_EQ(shown_word("it's $HOME"), shell_word("it's $HOME"));
+  EXPECT_EQ(shown_word("tissue.young_modulus=1..500"), "tissue.young_modulus=1..500");
 }
 
 TEST(SweepSlurm, the_job_knows_its_parts_by_the_task_alone) {
