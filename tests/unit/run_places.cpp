@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "geometry/cuboid.h"
@@ -107,6 +108,19 @@ TEST_F(PlacedBody, the_way_of_the_finger_becomes_minus_z) {
   EXPECT_EQ(Vec3(side.tissue.turn * Vec3::UnitX()), Vec3(-Vec3::UnitZ()));
   EXPECT_EQ(side.tissue.base_up, Vec3(side.tissue.turn * Vec3::UnitZ()));
   EXPECT_NEAR(side.tissue.turn.determinant(), 1.0, 1e-12);  // rounding
+}
+
+TEST_F(PlacedBody, what_was_made_of_a_mesh_file_is_told) {
+  std::ofstream(folder_ + "/box.mesh")
+      << "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n0 0 0 0\n30 0 0 0\n30 30 0 0\n"
+         "0 30 0 0\n0 0 30 0\n30 0 30 0\n30 30 30 0\n0 30 30 0\n"
+         "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n";
+  const scenario::Family family = scenario::parse(
+      "[tissue]\nmesh = { kind = \"file\", file = \"box.mesh\", unit = \"mm\" }\n"
+      "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n",
+      folder_ + "/press.toml", {});
+  EXPECT_EQ(run::choose(family.cases.front()).touch.warning,
+            "1 hexahedra, prisms and pyramids of box.mesh were cut into tetrahedra");
 }
 
 // Twice 30 mm wide with a hole of 20 mm, 10 mm high.
