@@ -81,11 +81,13 @@ bool bent(const Cell& cell, const std::vector<Vec3>& nodes) {
   return false;
 }
 
-// The signed volumes of a tetrahedron with its middles, if it has some, and of that between its corners. The determinant of
-// the map from the unit tetrahedron is a cubic, which the rule of five points integrates exactly
-// (Keast 1986).
+// The signed volumes of a tetrahedron with its middles, if it has some, and of that between its
+// corners. The determinant of the map from the unit tetrahedron is a cubic, which the rule of five
+// points integrates exactly (Keast 1986).
 std::pair<double, double> volumes_of(const Cell& cell, const std::vector<Vec3>& nodes) {
-  const auto corner = [&](int i) -> const Vec3& { return nodes[as_index(cell.nodes[as_index(i)])]; };
+  const auto corner = [&](int i) -> const Vec3& {
+    return nodes[as_index(cell.nodes[as_index(i)])];
+  };
   const auto volume = [&](const Eigen::Vector4d& at) {  // barycentric
     Eigen::Matrix<double, 3, 4> slopes;
     for (int i = 0; i < 4; ++i) slopes.col(i) = (4.0 * at[i] - 1.0) * corner(i);
@@ -108,9 +110,8 @@ std::pair<double, double> volumes_of(const Cell& cell, const std::vector<Vec3>& 
 
 // What becomes of cells whose edges are not straight; empty if all are.
 std::string straightened(const Cells& cells, const std::string& name) {
-  if (!cells.curved && std::none_of(cells.solids.begin(), cells.solids.end(), [&](const Cell& one) {
-        return bent(one, cells.nodes);
-      }))
+  if (!cells.curved && std::none_of(cells.solids.begin(), cells.solids.end(),
+                                    [&](const Cell& one) { return bent(one, cells.nodes); }))
     return "";
   std::string text = "the edges of the cells of " + name +
                      " are taken as straight, and the nodes in their middles are not used";

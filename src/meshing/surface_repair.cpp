@@ -300,9 +300,7 @@ Mending unpacked_mending(const std::string& bytes) {
   return made;
 }
 
-std::string near_text(const Vec3& place) {
-  return " near " + vector_text(place / 1e-3, 3) + " mm";
-}
+std::string near_text(const Vec3& place) { return " near " + vector_text(place / 1e-3, 3) + " mm"; }
 
 std::string many(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");

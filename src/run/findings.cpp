@@ -120,7 +120,8 @@ class Findings {
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (scenario.finger.moved)
       warning(
-          "the middle of the body's box is beside the body, so that the finger presses its top at " +
+          "the middle of the body's box is beside the body, so that the finger presses its top "
+          "at " +
           scene::place_text(scenario, touch.position) + "; set `finger.at` for another place");
     if (!scenario.uniform())
       for (const std::string& sentence : scene::disproportions(scenario, touch, expected_))

@@ -238,8 +238,8 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
                      (corners[as_index(a)][1] + corners[as_index(b)][1]) / 2,
                      (corners[as_index(a)][2] + corners[as_index(b)][2]) / 2});
     for (auto& [x, y, z] : ten)
-      places.push_back(number_text(curve == 0.0 ? x + 5.0 : x + x * x) + " " + number_text(y) + " " +
-                       number_text(z));
+      places.push_back(number_text(curve == 0.0 ? x + 5.0 : x + x * x) + " " + number_text(y) +
+                       " " + number_text(z));
   }
   const auto commas = [](std::string text) {
     for (std::size_t at = 0; (at = text.find(' ', at)) != std::string::npos; at += 2)
@@ -247,8 +247,9 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
     return text;
   };
   const auto gmsh = [&](const std::vector<int>& cells) {
-    std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"lump\"\n"
-                       "$EndPhysicalNames\n$Nodes\n20\n";
+    std::string text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"lump\"\n"
+        "$EndPhysicalNames\n$Nodes\n20\n";
     for (int n = 0; n < 20; ++n) text += std::to_string(n + 1) + " " + places[as_index(n)] + "\n";
     text += "$EndNodes\n$Elements\n" + std::to_string(cells.size()) + "\n";
     for (const int cell : cells)
@@ -256,8 +257,9 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
               text_of({0, 1, 2, 3, 4, 5, 6, 7, 9, 8}, 10 * cell + 1) + "\n";
     return text + "$EndElements\n";
   };
-  std::string abaqus_text = "*Node\n", vtk_text = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET "
-                                                  "UNSTRUCTURED_GRID\nPOINTS 20 double\n";
+  std::string abaqus_text = "*Node\n", vtk_text =
+                                           "# vtk DataFile Version 3.0\nt\nASCII\nDATASET "
+                                           "UNSTRUCTURED_GRID\nPOINTS 20 double\n";
   for (int n = 0; n < 20; ++n) {
     abaqus_text += std::to_string(n + 1) + ", " + commas(places[as_index(n)]) + "\n";
     vtk_text += places[as_index(n)] + "\n";
@@ -265,8 +267,8 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
   const std::vector<int> ten{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
   abaqus_text += "*Element, type=C3D10, elset=lump\n1, " + text_of(ten, 1, ", ") +
                  "\n*Element, type=C3D10\n2, " + text_of(ten, 11, ", ") + "\n";
-  vtk_text += "CELLS 2 22\n10 " + text_of(ten, 0) + "\n10 " + text_of(ten, 10) +
-              "\nCELL_TYPES 2\n24\n24\n";
+  vtk_text +=
+      "CELLS 2 22\n10 " + text_of(ten, 0) + "\n10 " + text_of(ten, 10) + "\nCELL_TYPES 2\n24\n24\n";
   // 1/3 over 1/4, and 1/2 over 1/4 + 1/6.
   const auto sentence = [](const std::string& file, const std::string& regions) {
     return "the edges of the cells of " + file +

@@ -146,8 +146,9 @@ class HollowCube : public PlacedBody {
 };
 
 TEST_F(HollowCube, the_tissue_under_the_finger_has_no_cavity) {
-  const scenario::Family read =
-      family("[finger]\nmaterial = \"rigid\"\nradius = \"8 mm\"\n[[step]]\nkind = \"indent\"\nto = \"7 mm\"\n");
+  const scenario::Family read = family(
+      "[finger]\nmaterial = \"rigid\"\nradius = \"8 mm\"\n[[step]]\nkind = \"indent\"\nto = \"7 "
+      "mm\"\n");
   const Choice choice = run::choose(read.cases.front());
   EXPECT_NEAR(choice.touch.thickness, 0.006, 1e-12);  // rounding
   EXPECT_NEAR(choice.touch.tissue_to_base, 0.012, 1e-12);
@@ -162,21 +163,24 @@ TEST_F(HollowCube, the_tissue_under_the_finger_has_no_cavity) {
 
 TEST_F(HollowCube, places_that_are_not_in_the_body_are_refused) {
   const std::string press = "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
-  EXPECT_TRUE(refusal(press + "[finger]\nradius = \"5 mm\"\nat = [\"900 mm\", \"15 mm\", \"14 mm\"]\n")
-                  .starts_with("press.toml:10:6: `at` is 870 mm from the surface of the body, which "
-                               "has x 0 to 30, y 0 to 30, z 0 to 30 mm, in the file's coordinates"));
-  EXPECT_EQ(refusal(press + "[[region]]\nkind = \"sphere\"\nradius = \"5 mm\"\n"
-                            "centre = [\"15 mm\", \"15 mm\", \"15 mm\"]\n"),
-            "press.toml:11:10: `[[region]]` 1 lies in a cavity of the body: it has x 10 to 20, y 10 "
-            "to 20, z 10 to 20 mm, the cavity x 6 to 24, y 6 to 24, z 6 to 24 mm, in the file's "
-            "coordinates; change `centre` or `radius`");
+  EXPECT_TRUE(
+      refusal(press + "[finger]\nradius = \"5 mm\"\nat = [\"900 mm\", \"15 mm\", \"14 mm\"]\n")
+          .starts_with("press.toml:10:6: `at` is 870 mm from the surface of the body, which "
+                       "has x 0 to 30, y 0 to 30, z 0 to 30 mm, in the file's coordinates"));
+  EXPECT_EQ(
+      refusal(press + "[[region]]\nkind = \"sphere\"\nradius = \"5 mm\"\n"
+                      "centre = [\"15 mm\", \"15 mm\", \"15 mm\"]\n"),
+      "press.toml:11:10: `[[region]]` 1 lies in a cavity of the body: it has x 10 to 20, y 10 "
+      "to 20, z 10 to 20 mm, the cavity x 6 to 24, y 6 to 24, z 6 to 24 mm, in the file's "
+      "coordinates; change `centre` or `radius`");
 }
 
 // Held by the lowest tenth of its diagonal: 6 mm of two sides, and the ends between them.
 TEST_F(PlacedBody, the_base_has_the_area_of_the_held_band) {
   meshing::write_surface(
       folder_ + "/box.off",
-      geometry::sampled(geometry::Cuboid{Vec3(30, 30, 30)}, {30.0, 30.0}).parts.front().surface, 1.0);
+      geometry::sampled(geometry::Cuboid{Vec3(30, 30, 30)}, {30.0, 30.0}).parts.front().surface,
+      1.0);
   const scenario::Family read = scenario::parse(
       "[tissue]\nshape = { file = \"box.off\", unit = \"mm\", up = \"1 1 0\" }\n"
       "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n",
