@@ -14,6 +14,7 @@
 #include "base/shell_word.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "base/vector_text.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "page/page.h"
@@ -214,20 +215,21 @@ class Explanation {
       text += ", " + size_text(geometry::extent(*shape));
     } else if (const auto* file = std::get_if<scenario::SurfaceFile>(&tissue.shape)) {
       text += " " + file->file + ", in " + file->unit;
-      if (const Vec3& size = scene_.choice.touch.size; size.allFinite())
-        text += ", " + size_text(size);
+      const scene::SurfaceTouch& touch = scene_.choice.touch;
+      if (touch.size.allFinite()) text += ", " + size_text(touch.high - touch.low);
     }
     line("  shape        " + text);
     if (const auto box = body_box())
       line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
-    if (!scene_.choice.touch.warning.empty()) line("  mended       " + scene_.choice.touch.warning);
+    if (!scene_.choice.touch.warning.empty())
+      line((std::holds_alternative<scenario::AsMeshed>(tissue.shape) ? "  mesh file    "
+                                                                     : "  mended       ") +
+           scene_.choice.touch.warning);
     if (!scene_.scenario.uniform())
       for (const std::string& sentence :
            scene::disproportions(scene_.scenario, scene_.choice.touch, scene_.choice.expected))
         line("  note         " + sentence);
-    towards();
-    if (scene_.scenario.finger.moved)
-      line("  press        on the top, since the middle of the body's box is beside the body");
+    press();
     if (!scene_.specimen) top();
     const geometry::SmoothSurface* const outer_surface = scene_.outer_surface();
     if (outer_surface == nullptr) return;
@@ -252,14 +254,17 @@ class Explanation {
          " of the surface");
   }
 
-  // The way of a finger that does not come along -z.
-  void towards() {
+  // Where the finger first touches, and its way if that is not along -z.
+  void press() {
+    const scene::SurfaceTouch& touch = scene_.choice.touch;
+    if (scene_.scenario.uniform() || touch.nowhere || !touch.size.allFinite()) return;
     const Vec3 way = -scene_.scenario.tissue.turn.row(2).transpose();
-    if (way == -Vec3::UnitZ() || scene_.scenario.uniform()) return;
-    std::string text;
-    for (int axis = 0; axis < 3; ++axis)
-      text += (axis == 0 ? "(" : ", ") + rounded_text(way[axis] + 0.0, 3);
-    line("  press        towards " + text + ") in the file's coordinates");
+    line("  press        at " + scene::place_text(scene_.scenario, touch.position) +
+         (way == -Vec3::UnitZ() ? "" : " towards " + vector_text(way, 3)) + ", " +
+         scene::coordinates_text(scene_.scenario) +
+         (scene_.scenario.finger.moved
+              ? "; on the top, since the middle of the body's box is beside the body"
+              : ""));
   }
 
   // In the coordinates of the file.
@@ -270,17 +275,6 @@ class Explanation {
     if (scene_.solid)
       return scene::box_in_file(scene_.scenario, scene_.solid->outer_surface->surface().vertices);
     return std::nullopt;
-  }
-
-  // A place of the scene in the coordinates of the file.
-  [[nodiscard]] std::string place_text(const Vec3& place) const {
-    const Vec3 own = scene_.scenario.tissue.turn.transpose() * place;
-    const double rounding = 1e-9 * own.norm();
-    std::string text;
-    for (int axis = 0; axis < 3; ++axis)
-      text += (axis == 0 ? "(" : ", ") +
-              rounded_text(std::abs(own[axis]) < rounding ? 0.0 : unit::mm.from_si(own[axis]));
-    return text + ") mm";
   }
 
   static std::string size_text(const Vec3& size) {
@@ -294,16 +288,14 @@ class Explanation {
   void top() {
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (!touch.curved() && !touch.tilted()) return;
-    line("  top          curvatures " + rounded_text(touch.curvature.kappa_1) + " and " +
-         rounded_text(touch.curvature.kappa_2) + " 1/m, positive if convex");
-    if (!touch.size.allFinite()) return;
     constexpr double degrees = 180.0 / std::numbers::pi;
     const double inclined = degrees * std::acos(std::min(1.0, touch.curvature.normal.z()));
     constexpr double level = 0.01;  // degrees, and what does not count
-    line("               at " + place_text(touch.position) +
+    line("  top          curvatures " + rounded_text(touch.curvature.kappa_1) + " and " +
+         rounded_text(touch.curvature.kappa_2) + " 1/m, positive if convex" +
          (inclined < level
               ? ""
-              : ", where the surface is inclined by " + rounded_text(inclined, 3) + " degrees"));
+              : "; the surface is inclined by " + rounded_text(inclined, 3) + " degrees"));
   }
 
   void regions() {
@@ -314,7 +306,8 @@ class Explanation {
       text.resize(15, ' ');
       if (const auto* inclusion = std::get_if<scenario::Inclusion>(&region.part))
         text += "a sphere of radius " + quantity_text(inclusion->radius, unit::mm) + " around " +
-                place_text({inclusion->centre[0], inclusion->centre[1], inclusion->centre[2]});
+                scene::place_text(scene_.scenario, {inclusion->centre[0], inclusion->centre[1],
+                                                    inclusion->centre[2]});
       else if (const auto* slab = std::get_if<scenario::Slab>(&region.part))
         text += "from " + quantity_text(slab->bottom, unit::mm) + " to " +
                 quantity_text(slab->top, unit::mm) + " in height";
@@ -426,7 +419,8 @@ class Explanation {
     line("  mesh         " + std::to_string(specimen.network.nodes()) + " nodes, " +
          std::to_string(specimen.mesh.tetrahedra.size()) + " tetrahedra, " +
          std::to_string(specimen.network.springs()) + " springs");
-    if (!specimen.warning.empty()) line("  surface      " + specimen.warning);
+    if (!specimen.warning.empty() && specimen.warning != scene_.choice.touch.warning)
+      line("  surface      " + specimen.warning);
     if (const auto& refined = specimen.refined; refined && refined->rounds > 0)
       line("  refined      from " + std::to_string(refined->start_nodes) + " nodes in " +
            std::to_string(refined->rounds) + (refined->rounds == 1 ? " round" : " rounds") +

@@ -62,9 +62,90 @@ constexpr VtkKind vtk_kinds[] = {
     {28, 4, false, true}, {29, 8, true, true},  {32, 6, true, true},  {33, 8, true, true},
     {34, 3, false, true}, {69, 3, false, true}, {70, 4, false, true}, {71, 4, true, true},
     {72, 8, true, true},  {73, 6, true, true},  {74, 5, true, true}};
+constexpr int vtk_quadratic_tetrahedron = 24;
 constexpr int vtk_strip = 6, vtk_polygon = 7, vtk_pixel = 8, vtk_voxel = 11;
 // Points and lines.
 constexpr int vtk_passed_over[] = {0, 1, 2, 3, 4, 21, 35, 68};
+
+constexpr int middle_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+
+// Whether a middle lies beside that of its straight edge, by more than a file's rounding.
+bool bent(const Cell& cell, const std::vector<Vec3>& nodes) {
+  constexpr double rounding = 1e-5;
+  for (std::size_t e = 0; cell.middles && e < 6; ++e) {
+    const Vec3& a = nodes[as_index(cell.nodes[as_index(middle_edges[e][0])])];
+    const Vec3& b = nodes[as_index(cell.nodes[as_index(middle_edges[e][1])])];
+    if ((nodes[as_index((*cell.middles)[e])] - 0.5 * (a + b)).norm() > rounding * (b - a).norm())
+      return true;
+  }
+  return false;
+}
+
+// The signed volumes of a tetrahedron with its middles, if it has some, and of that between its
+// corners. The determinant of the map from the unit tetrahedron is a cubic, which the rule of five
+// points integrates exactly (Keast 1986).
+std::pair<double, double> volumes_of(const Cell& cell, const std::vector<Vec3>& nodes) {
+  const auto corner = [&](int i) -> const Vec3& {
+    return nodes[as_index(cell.nodes[as_index(i)])];
+  };
+  const auto volume = [&](const Eigen::Vector4d& at) {  // barycentric
+    Eigen::Matrix<double, 3, 4> slopes;
+    for (int i = 0; i < 4; ++i) slopes.col(i) = (4.0 * at[i] - 1.0) * corner(i);
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [i, j] = std::pair(middle_edges[e][0], middle_edges[e][1]);
+      slopes.col(i) += 4.0 * at[j] * nodes[as_index((*cell.middles)[e])];
+      slopes.col(j) += 4.0 * at[i] * nodes[as_index((*cell.middles)[e])];
+    }
+    const Vec3 first = slopes.col(0);
+    return (slopes.rightCols<3>().colwise() - first).determinant() / 6.0;
+  };
+  const double straight =
+      (corner(1) - corner(0)).cross(corner(2) - corner(0)).dot(corner(3) - corner(0)) / 6.0;
+  if (!cell.middles) return {straight, straight};
+  double whole = -0.8 * volume(Eigen::Vector4d::Constant(0.25));
+  for (int i = 0; i < 4; ++i)
+    whole += 0.45 * volume(Eigen::Vector4d::Constant(1.0 / 6.0) + Eigen::Vector4d::Unit(i) / 3.0);
+  return {whole, straight};
+}
+
+// What becomes of cells whose edges are not straight; empty if all are.
+std::string straightened(const Cells& cells, const std::string& name) {
+  if (!cells.curved && std::none_of(cells.solids.begin(), cells.solids.end(),
+                                    [&](const Cell& one) { return bent(one, cells.nodes); }))
+    return "";
+  std::string text = "the edges of the cells of " + name +
+                     " are taken as straight, and the nodes in their middles are not used";
+  const bool known = !cells.curved && std::all_of(cells.solids.begin(), cells.solids.end(),
+                                                  [](const Cell& one) { return one.corners == 4; });
+  if (known) {
+    std::map<int, std::pair<double, double>> regions;
+    std::pair<double, double> body;
+    for (const Cell& cell : cells.solids) {
+      const auto [whole, straight] = volumes_of(cell, cells.nodes);
+      const double sign = straight < 0.0 ? -1.0 : 1.0;
+      for (auto* sum : {&regions[cell.region], &body}) {
+        sum->first += sign * whole;
+        sum->second += sign * straight;
+      }
+    }
+    const auto change = [](const std::pair<double, double>& volumes) {
+      const double part = volumes.second / volumes.first - 1.0;
+      constexpr double least = 5e-4;
+      return std::abs(part) < least
+                 ? "the same"
+                 : percent_text(std::abs(part)) + (part < 0.0 ? " less" : " more");
+    };
+    text += ": of their volumes the body has " + change(body);
+    for (const auto& [region, volumes] : regions) {
+      if (regions.size() == 1) break;
+      std::string title = std::to_string(region);
+      for (const auto& [one, number] : cells.names)
+        if (number == region) title = ticked(one);
+      text += ", region " + title + " " + change(volumes);
+    }
+  }
+  return text + "; a finer mesh keeps the shape";
+}
 
 std::string ending_in(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
@@ -107,12 +188,12 @@ NamedMesh tetrahedra_of(const Cells& cells, const std::string& path, double metr
   if (std::any_of(regions.begin(), regions.end(), [](int region) { return region != 0; }))
     made.mesh.regions = std::move(regions);
   made.names = cells.names;
+  const std::string name = std::filesystem::path(path).filename().string();
   if (cut > 0)
-    made.warning = std::to_string(cut) + " hexahedra, prisms and pyramids of " + path +
+    made.warning = std::to_string(cut) + " hexahedra, prisms and pyramids of " + name +
                    " were cut into tetrahedra";
-  if (cells.curved)
-    made.warning += (made.warning.empty() ? "" : "; ") + std::string("of the cells of ") + path +
-                    " only the corners are used, so that their sides are straight";
+  if (const std::string text = straightened(cells, name); !text.empty())
+    made.warning += (made.warning.empty() ? "" : "; ") + text;
   return made;
 }
 
@@ -187,13 +268,16 @@ bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells)
                                         [&](const VtkKind& one) { return one.type == type; });
   if (kind == std::end(vtk_kinds) || corners.size() < as_index(kind->corners)) return false;
   corners.resize(as_index(kind->corners));
-  cells.curved = cells.curved || kind->curved;
   if (!kind->solid) {
     cells.faces.push_back(std::move(corners));
     return true;
   }
   Cell cell{.corners = kind->corners, .region = at};
   std::copy(corners.begin(), corners.end(), cell.nodes.begin());
+  if (type == vtk_quadratic_tetrahedron && nodes.size() == 10)
+    cell.middles = {nodes[4], nodes[5], nodes[6], nodes[7], nodes[8], nodes[9]};
+  else
+    cells.curved = cells.curved || kind->curved;
   cells.solids.push_back(cell);
   return true;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct Cell {
   std::array<int, 8> nodes{};
   int corners = 0;
   int region = 0;
+  // Of a quadratic tetrahedron: the nodes on the edges 01, 12, 02, 03, 13 and 23.
+  std::optional<std::array<int, 6>> middles = {};
 };
 
 struct Cells {
@@ -26,7 +29,7 @@ struct Cells {
   std::vector<std::vector<int>> face_groups;  // of Gmsh and MEDIT, per face; else empty
   std::map<std::string, int> names;           // regions of solids by the names of their groups
   std::map<std::string, int> face_names;
-  bool curved = false;  // some cells have nodes besides their corners
+  bool curved = false;  // some solids have further nodes that are not kept
 };
 
 // A mesh with the names of its regions, and a sentence on what was made of the file's cells.
@@ -39,7 +42,8 @@ struct NamedMesh {
 // The tetrahedra in all solids, which match across faces: every quadrangle is cut from its node
 // with the lowest number (Dompierre et al. 1999). Only nodes of tetrahedra are kept, in the order
 // of the file; `regions` is empty if all are 0. Tetrahedra that are inside out are turned round,
-// those of degenerate cells with a repeated node are excluded. Coordinates are multiplied by
+// those of degenerate cells with a repeated node are excluded. Edges become straight; where they
+// were not, the sentence has the changes of volume. Coordinates are multiplied by
 // `metres_per_unit`. Throws InputError for `path` if there are no solids.
 [[nodiscard]] NamedMesh tetrahedra_of(const Cells& cells, const std::string& path,
                                       double metres_per_unit);

@@ -27,6 +27,8 @@ constexpr GmshKind gmsh_kinds[] = {
     {31, 56, 4, 3}, {36, 16, 4, 2}, {37, 25, 4, 2}, {90, 40, 6, 3}, {91, 75, 6, 3}, {92, 64, 8, 3},
     {93, 125, 8, 3}};
 
+constexpr int quadratic_tetrahedron = 11;
+
 constexpr const char* save_again = "; save the file again from Gmsh";
 
 // The numbers of a section: one record a line in ASCII, one after the other in binary.
@@ -262,24 +264,27 @@ class GmshReader {
   }
 
   void add_element(const GmshKind& kind, const std::vector<int>& groups, bool of_8_bytes) {
-    std::vector<int> corners;
+    std::vector<int> nodes;
     for (int n = 0; n < kind.nodes; ++n) {
       const std::int64_t tag = of_8_bytes ? wide("a node") : whole("a node");
-      if (n >= kind.corners || kind.dimension < 2) continue;
+      if ((n >= kind.corners && kind.type != quadratic_tetrahedron) || kind.dimension < 2) continue;
       const auto node = node_of_tag_.find(tag);
       if (node == node_of_tag_.end())
         fail("there is no node `" + std::to_string(tag) + "` in `$Nodes`");
-      corners.push_back(node->second);
+      nodes.push_back(node->second);
     }
     if (kind.dimension < 2) return;
-    cells_.curved = cells_.curved || (kind.dimension == 3 && kind.nodes > kind.corners);
     if (kind.dimension == 2) {
-      cells_.faces.push_back(std::move(corners));
+      cells_.faces.push_back(std::move(nodes));
       cells_.face_groups.push_back(groups);
       return;
     }
     Cell cell{.corners = kind.corners, .region = groups.front()};
-    std::copy(corners.begin(), corners.end(), cell.nodes.begin());
+    std::copy_n(nodes.begin(), kind.corners, cell.nodes.begin());
+    if (kind.type == quadratic_tetrahedron)
+      cell.middles = {nodes[4], nodes[5], nodes[6], nodes[7], nodes[9], nodes[8]};
+    else
+      cells_.curved = cells_.curved || kind.nodes > kind.corners;
     cells_.solids.push_back(cell);
   }
 

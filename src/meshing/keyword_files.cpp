@@ -157,21 +157,25 @@ class AbaqusReader {
       if (more && (!lines_.next() || lines_.text().starts_with("*")))
         lines_.fail("the element before this line has too few nodes; save the file again");
     }
-    std::vector<int> corners;
-    for (int c = 1; c <= kind_.corners; ++c) {
+    const bool quadratic = kind_.solid && kind_.corners == 4 && kind_.nodes == 10;
+    std::vector<int> nodes;
+    for (int c = 1; c <= (quadratic ? 10 : kind_.corners); ++c) {
       const auto node = node_of_number_.find(numbers[as_index(c)]);
       if (node == node_of_number_.end())
         lines_.fail("there is no node `" + std::to_string(numbers[as_index(c)]) +
                     "`; save the file again");
-      corners.push_back(node->second);
+      nodes.push_back(node->second);
     }
     if (!kind_.solid) {
-      cells_.faces.push_back(std::move(corners));
+      cells_.faces.push_back(std::move(nodes));
       return;
     }
-    cells_.curved = cells_.curved || kind_.nodes > as_index(kind_.corners);
     Cell cell{.corners = kind_.corners, .region = numbers[0]};
-    std::copy(corners.begin(), corners.end(), cell.nodes.begin());
+    std::copy_n(nodes.begin(), kind_.corners, cell.nodes.begin());
+    if (quadratic)
+      cell.middles = {nodes[4], nodes[5], nodes[6], nodes[7], nodes[8], nodes[9]};
+    else
+      cells_.curved = cells_.curved || kind_.nodes > as_index(kind_.corners);
     cells_.solids.push_back(cell);
     regions_.push_back(region_);
   }

@@ -267,7 +267,8 @@ NamedMesh read_mesh(const std::string& path, double metres_per_unit) {
   NamedMesh read = as_in_file(path, metres_per_unit);
   if (const int parted = part_touching(read.mesh); parted > 0)
     read.warning += (read.warning.empty() ? "" : "; ") + std::to_string(parted) +
-                    (parted == 1 ? " node" : " nodes") + " of " + path +
+                    (parted == 1 ? " node" : " nodes") + " of " +
+                    std::filesystem::path(path).filename().string() +
                     " at which its parts only touch were parted";
   return read;
 }

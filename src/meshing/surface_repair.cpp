@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "base/vector_text.h"
 #include "geometry/box_tree.h"
 #include "geometry/half_edges.h"
 #include "meshing/cgal_library.h"
@@ -299,12 +300,7 @@ Mending unpacked_mending(const std::string& bytes) {
   return made;
 }
 
-std::string near_text(const Vec3& place) {
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis)
-    text += (axis == 0 ? "" : ", ") + rounded_text(unit::mm.from_si(place[axis]), 3);
-  return " near (" + text + ") mm";
-}
+std::string near_text(const Vec3& place) { return " near " + vector_text(place / 1e-3, 3) + " mm"; }
 
 std::string many(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");

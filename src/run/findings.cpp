@@ -117,11 +117,12 @@ class Findings {
     const std::string& mended = scene_.choice.touch.warning;
     if (!mended.empty()) warning(mended);
     const scenario::Resolved& scenario = scene_.scenario;
+    const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (scenario.finger.moved)
       warning(
-          "the middle of the body's box is beside the body, so that the finger presses its top; "
-          "set `finger.at` for another place");
-    const scene::SurfaceTouch& touch = scene_.choice.touch;
+          "the middle of the body's box is beside the body, so that the finger presses its top "
+          "at " +
+          scene::place_text(scenario, touch.position) + "; set `finger.at` for another place");
     if (!scenario.uniform())
       for (const std::string& sentence : scene::disproportions(scenario, touch, expected_))
         warning(sentence);
@@ -150,7 +151,8 @@ class Findings {
     if (const auto& refined = specimen.refined;
         refined && refined->start_nodes != specimen.network.nodes())
       add("nodes_before_refining", static_cast<double>(refined->start_nodes));
-    if (!specimen.warning.empty()) warning(specimen.warning);
+    if (!specimen.warning.empty() && specimen.warning != scene_.choice.touch.warning)
+      warning(specimen.warning);
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
     add("springs", static_cast<double>(specimen.network.springs()));
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));

@@ -212,8 +212,10 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes, scene::Choice choice) {
-  if (!choice.chosen.uniform())
+  if (!choice.chosen.uniform()) {
+    scene::refuse_beside(choice.chosen, choice.touch, family);
     scene::refuse_through(choice.chosen, choice.touch, choice.expected, family);
+  }
   try {
     if (scene::refines(choice.chosen)) {
       scene::refuse_misplaced(choice.chosen, family, shapes);

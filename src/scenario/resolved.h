@@ -29,6 +29,7 @@ struct Resolved : PlainScenario {
   struct Finger : PlainFinger {
     double density = 0.0;                     // kg/m^3
     std::optional<contact::Elastic> elastic;  // none if rigid, and in a uniform test
+    double beside = 0.0;                      // m, of `at` from the surface
     bool moved = false;                       // to the top of a body that has nothing at its middle
   };
   struct Contact : PlainContact {

@@ -2,6 +2,7 @@
 #include "scene/places.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <tuple>
@@ -9,6 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "base/vector_text.h"
 #include "geometry/box_tree.h"
 #include "geometry/half_edges.h"
 #include "meshing/mesh_check.h"
@@ -43,6 +45,16 @@ std::string outside(std::size_t region, double inside, const std::string& own,
          ": it has " + own + ", the body " + body + "; " + remedy;
 }
 
+// The cavity of a body in which most of a ball lies that is not in the tissue, of which `inside`
+// is; nothing if that is outside the body.
+std::optional<geometry::Surface> cavity_around(const geometry::Surface& body,
+                                               const geometry::Inclusion& ball, double inside) {
+  for (const auto& [part, triangles] : geometry::parts_of(body))
+    if (geometry::enclosed(part).volume < 0.0 && share_inside(part, ball) > 0.5 * (1.0 - inside))
+      return part;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string Box::text() const {
@@ -62,6 +74,10 @@ Box box_of(std::span<const Vec3> places) {
 std::string coordinates_text(const scenario::Resolved& scenario) {
   return parametric(scenario.tissue.shape) ? "from the lowest corner of its box"
                                            : "in the file's coordinates";
+}
+
+std::string place_text(const scenario::Resolved& scenario, const Vec3& place) {
+  return vector_text(scenario.tissue.turn.transpose() * place / 1e-3) + " mm";
 }
 
 namespace {
@@ -273,6 +289,7 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
     const auto surface = unturned(scenario, folder, shapes);
     if (!surface) return;
     const geometry::SurfacePoint at = nearest_outside(surface->surface(), place);
+    finger.beside = (place - surface->position(at)).norm();
     place = surface->position(at);
     if (finger.towards.empty()) towards = -surface->normal(at);
   }
@@ -344,6 +361,20 @@ void refuse_held(const scenario::Resolved& scenario, double base_level, const Ve
         "`finger.at` or `finger.towards`, or `tissue.base_side` or `tissue.base_height`");
 }
 
+namespace {
+
+// The part of a triangle that lies below a level of a linear height with these corners.
+double share_below(std::array<double, 3> heights, double level) {
+  std::sort(heights.begin(), heights.end());
+  const auto& [low, middle, high] = heights;
+  if (level >= high) return 1.0;
+  if (level <= low) return 0.0;
+  if (level < middle) return (level - low) * (level - low) / ((middle - low) * (high - low));
+  return 1.0 - (high - level) * (high - level) / ((high - middle) * (high - low));
+}
+
+}  // namespace
+
 BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& body,
                    const Vec3& place, double radius) {
   const Vec3& up = scenario.tissue.base_up;
@@ -352,17 +383,21 @@ BaseArea base_area(const scenario::Resolved& scenario, const geometry::Surface& 
   double base = 0.0, below = 0.0, held = 0.0, whole = 0.0, whole_held = 0.0;
   for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
     Vec3 middle = Vec3::Zero();
-    for (const int vertex : body.triangles[as_index(t)])
-      middle += body.vertices[as_index(vertex)] / 3.0;
+    std::array<double, 3> heights{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& corner = body.vertices[as_index(body.triangles[as_index(t)][k])];
+      middle += corner / 3.0;
+      heights[k] = corner.dot(up);
+    }
     const Vec3 area = 0.5 * geometry::twice_area(body, t);
-    const bool fixed = middle.dot(up) <= level;
-    if (fixed) base += area.norm();
+    const double fixed = share_below(heights, level);
+    base += fixed * area.norm();
     if (area.z() >= 0.0) continue;
     whole -= area.z();
-    if (fixed) whole_held -= area.z();
+    whole_held -= fixed * area.z();
     if ((middle - place).head<2>().norm() > radius) continue;
     below -= area.z();
-    if (fixed) held -= area.z();
+    held -= fixed * area.z();
   }
   if (!(below > 0.0)) std::tie(held, below) = std::pair(whole_held, whole);  // of few triangles
   return {base / geometry::area(body), below > 0.0 ? held / below : 0.0};
@@ -444,10 +479,16 @@ void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface&
       const Vec3 in_file = scenario.tissue.turn.transpose() * centre;
       const Vec3 around = Vec3::Constant(ball->radius);
       const Box own{in_file - around, in_file + around};
-      if (share < least_inside)
-        throw InputError(
-            place_of(family.document, path + ".centre"),
-            outside(i, share, own.text(), own_box + where, "change `centre` or `radius`"));
+      if (share >= least_inside) continue;
+      std::string text =
+          outside(i, share, own.text(), own_box + where, "change `centre` or `radius`");
+      if (const auto cavity = cavity_around(body, {centre, ball->radius, 0}, share))
+        text = "`[[region]]` " + std::to_string(i + 1) + " lies " +
+               (share > 0.0 ? "with " + percent_text(1.0 - share) + " of its volume " : "") +
+               "in a cavity of the body: it has " + own.text() + ", the cavity " +
+               box_in_file(scenario, cavity->vertices).text() + where +
+               "; change `centre` or `radius`";
+      throw InputError(place_of(family.document, path + ".centre"), text);
     }
   }
   const auto& height = scenario.tissue.base_height;

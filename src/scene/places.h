@@ -26,6 +26,9 @@ struct Box {
 // "in the file's coordinates", or "from the lowest corner of its box".
 [[nodiscard]] std::string coordinates_text(const scenario::Resolved& scenario);
 
+// A place (m) of the scene in these coordinates, "(1, 0, -2) mm".
+[[nodiscard]] std::string place_text(const scenario::Resolved& scenario, const Vec3& place);
+
 // Sets `tissue.turn`, `tissue.base_up`, `tissue.near_part` and, where the base is a group of faces,
 // `tissue.base_height`, and turns the scenario's places with the body: centres of inclusions, and
 // `finger.at`, which becomes `finger.x` and `finger.y`. Throws MeshError if a mesh that a place

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "meshing/mesh_check.h"
+#include "scene/places.h"
 
 namespace palpate::scene {
 namespace {
@@ -29,7 +30,9 @@ std::string unit_text(const scenario::Resolved& scenario, const SurfaceTouch& to
          (others.empty() ? "" : ": " + others);
 }
 
-std::string size_text(const Vec3& size) {
+// As the body lies in its file.
+std::string size_text(const SurfaceTouch& touch) {
+  const Vec3 size = touch.high - touch.low;
   std::string text;
   for (int axis = 0; axis < 3; ++axis)
     text += (axis == 0 ? "" : " x ") + rounded_text(unit::mm.from_si(size[axis]), 3);
@@ -61,10 +64,26 @@ void refuse_through(const scenario::Resolved& scenario, const SurfaceTouch& touc
       place_of(family.document, "step." + std::to_string(step) + ".to"),
       "`to` of " + quantity_text(to, unit::mm) +
           (std::isfinite(touch.to_base)
-               ? " presses through the tissue, which is " + mm_text(touch.to_base) +
-                     " thick between the finger and what holds it"
-               : " is more than the length of the body, which is " + size_text(touch.size)) +
+               ? (touch.tissue_to_base < touch.to_base
+                      ? " presses through the hollow body, which is "
+                      : " presses through the tissue, which is ") +
+                     mm_text(touch.to_base) + " thick between the finger and what holds it"
+               : " is more than the length of the body, which is " + size_text(touch)) +
           "; press less deep, or check the size of the body" + unit_text(scenario, touch));
+}
+
+void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                   const scenario::Family& family) {
+  constexpr double near = 0.1;  // of the longest side of the body's box
+  const double distance = scenario.finger.beside;
+  if (!touch.size.allFinite() ||
+      distance <= std::max(scenario.finger.radius, near * (touch.high - touch.low).maxCoeff()))
+    return;
+  throw InputError(place_of(family.document, "finger.at"),
+                   "`at` is " + mm_text(distance) + " from the surface of the body, which has " +
+                       Box{touch.low, touch.high}.text() + ", " + coordinates_text(scenario) +
+                       "; give a place on the surface, and check its unit" +
+                       unit_text(scenario, touch));
 }
 
 std::vector<std::string> disproportions(const scenario::Resolved& scenario,
@@ -73,21 +92,24 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
   if (!touch.size.allFinite()) return found;
   const std::string units = unit_text(scenario, touch);
   const double travel = estimates.tissue_share * estimates.travel;
-  if (travel > deep * touch.to_base)
-    found.push_back("the press takes " + percent_text(travel / touch.to_base) +
-                    " of the tissue, which is " + mm_text(touch.to_base) +
-                    " thick between the finger and what holds it: few tissues are tested at "
+  const double hollow = touch.to_base - touch.tissue_to_base;
+  if (travel > deep * touch.tissue_to_base)
+    found.push_back("the press takes " + percent_text(travel / touch.tissue_to_base) +
+                    " of the tissue, which is " + mm_text(touch.tissue_to_base) +
+                    " thick between the finger and what holds it" +
+                    (hollow > 0.0 ? " (without " + mm_text(hollow) + " that are hollow)" : "") +
+                    ": few tissues are tested at "
                     "such strains; press less deep, or check the size of the body" +
                     units);
   const double width = touch.size.head<2>().minCoeff();
   const double radius = scenario.finger.radius;
   if (radius > width || estimates.contact_radius > 0.5 * width)
     found.push_back("the finger of radius " + mm_text(radius) +
-                    " is wider than the body, which is " + size_text(touch.size) +
+                    " is wider than the body, which is " + size_text(touch) +
                     ": it presses like a plate; check `finger.radius`" + units);
   constexpr double longest = 2.0;  // m
   if (!units.empty() && touch.size.maxCoeff() > longest)
-    found.push_back("the body is " + size_text(touch.size) + "; check its size" + units);
+    found.push_back("the body is " + size_text(touch) + "; check its size" + units);
   return found;
 }
 

@@ -11,14 +11,18 @@
 
 namespace palpate::scene {
 
-// The first step (from 1) whose displacement goes through the tissue under the finger down to what
-// holds it, or is longer than the body; 0 if there is none.
+// The first step (from 1) whose displacement goes through the body under the finger, with what is
+// hollow in it, down to what holds it, or is longer than the body; 0 if there is none.
 [[nodiscard]] std::size_t step_through(const scenario::Resolved& scenario,
                                        const SurfaceTouch& touch, const Estimates& estimates);
 
 // Throws InputError for such a step.
 void refuse_through(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                     const Estimates& estimates, const scenario::Family& family);
+
+// Throws InputError for `finger.at` far from the surface: mostly a wrong unit.
+void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                   const scenario::Family& family);
 
 // Sentences on what is computed, but probably not meant: a press through more than half of the
 // tissue, a finger wider than the body, a body longer than any that is pressed.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -57,12 +59,13 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
     touch.cannot = beside_text(touch.lowest);
     touch.nowhere = true;
   } else if (found->on_edge) {
+    touch.position = found->position;
     touch.cannot = std::holds_alternative<geometry::Cuboid>(shape)
                        ? "the finger leaves the top of the body"
                        : on_an_edge;
   } else {
     touch.curvature = found->curvature;
-    touch.thickness = touch.to_base = found->position.z();
+    touch.thickness = touch.to_base = touch.tissue_to_base = found->position.z();
     put(touch, found->position, radius);
     if (std::holds_alternative<geometry::Cylinder>(shape) ||
         std::holds_alternative<geometry::LayeredLimb>(shape))
@@ -143,15 +146,71 @@ contact::SphereLaw law_on_flat(const Scenario& scenario) {
   return {scenario.finger.radius, contact::hertz::effective_modulus(0.0, tissue.compliance())};
 }
 
-// How far the body reaches straight down from a point (m) of its surface, if it is held there, m.
-double held_thickness(const geometry::Surface& surface, const Vec3& point,
-                      const Scenario& scenario) {
-  const double thickness = thickness_under(surface, point);
-  const Vec3 below = point - thickness * Vec3::UnitZ();
-  const double rounding = 1e-6 * thickness;
-  return below.dot(scenario.tissue.base_up) > base_level(scenario, surface) + rounding
-             ? std::numeric_limits<double>::infinity()
-             : thickness;
+// The body straight below a point of its surface, m.
+struct Below {
+  double first = 0.0;   // to where it ends, or to the wall of a hollow
+  double last = 0.0;    // to where it ends for good
+  double tissue = 0.0;  // what is not hollow of that
+};
+
+Below below(const geometry::Surface& surface, const Vec3& point) {
+  constexpr double own = 1e-3;  // of the height: less is the point's own triangle
+  double low = point.z(), high = point.z();
+  for (const Vec3& vertex : surface.vertices) {
+    low = std::min(low, vertex.z());
+    high = std::max(high, vertex.z());
+  }
+  std::vector<std::pair<double, bool>> crossings;  // z, and whether it is an underside
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3 twice = geometry::twice_area(surface, static_cast<int>(t));
+    if (twice.z() == 0.0) continue;
+    const bool underside = twice.z() < 0.0;
+    const auto corner = [&](std::size_t k) -> const Vec3& {
+      return surface.vertices[as_index(surface.triangles[t][k])];
+    };
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 along = corner((k + 1) % 3) - corner(k), to = point - corner(k);
+      const double side = along.x() * to.y() - along.y() * to.x();
+      inside = inside && (underside ? side <= 0.0 : side >= 0.0);
+    }
+    if (!inside) continue;
+    const double z =
+        corner(0).z() - (twice.head<2>().dot((point - corner(0)).head<2>())) / twice.z();
+    if (z < point.z() - own * (high - low)) crossings.emplace_back(z, underside);
+  }
+  std::sort(crossings.rbegin(), crossings.rend());
+  Below found;
+  double top = point.z();
+  bool inside = true;
+  const auto leave = [&](double z) {
+    found.last = point.z() - z;
+    if (found.first == 0.0) found.first = found.last;
+    found.tissue += top - z;
+  };
+  for (const auto& [z, underside] : crossings) {
+    if (underside != inside) continue;  // the same side again, on an edge of two triangles
+    if (underside) leave(z);
+    top = z;
+    inside = !underside;
+  }
+  if (inside) leave(low);
+  return found;
+}
+
+// Sets how far it is from a point (m) of the surface straight down to what is held.
+void set_to_base(SurfaceTouch& touch, const geometry::Surface& surface, const Vec3& point,
+                 const Scenario& scenario) {
+  const Below found = below(surface, point);
+  const double level = base_level(scenario, surface);
+  const auto held = [&](double depth) {
+    const double rounding = 1e-6 * depth;
+    return (point - depth * Vec3::UnitZ()).dot(scenario.tissue.base_up) <= level + rounding;
+  };
+  if (held(found.first))
+    touch.to_base = touch.tissue_to_base = found.first;
+  else if (held(found.last))
+    std::tie(touch.to_base, touch.tissue_to_base) = std::pair(found.last, found.tissue);
 }
 
 SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& scenario) {
@@ -176,7 +235,8 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
     touch.nowhere = true;
     return touch;
   }
-  touch.to_base = held_thickness(surface.surface(), surface.position(first.at), scenario);
+  touch.position = surface.position(first.at);
+  set_to_base(touch, surface.surface(), touch.position, scenario);
   if (first.on_crease) {
     touch.to_edge = 0.0;
     touch.cannot = on_an_edge;
@@ -193,39 +253,15 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   }
   touch.curvature = geometry::turned_to(found.curvature, surface.normal(first.at));
   touch.one_sided = found.status == geometry::StarStatus::one_sided;
-  const Vec3 position = surface.position(first.at);
-  touch.thickness = thickness_under(surface.surface(), position);
-  put(touch, position, radius);
+  touch.thickness = thickness_under(surface.surface(), touch.position);
+  put(touch, touch.position, radius);
   return touch;
 }
 
 }  // namespace
 
 double thickness_under(const geometry::Surface& surface, const Vec3& point) {
-  constexpr double own = 1e-3;  // of the height: less is the point's own triangle
-  double low = point.z(), high = point.z();
-  for (const Vec3& vertex : surface.vertices) {
-    low = std::min(low, vertex.z());
-    high = std::max(high, vertex.z());
-  }
-  double end = low;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const Vec3 twice = geometry::twice_area(surface, static_cast<int>(t));
-    if (twice.z() >= 0.0) continue;  // an underside
-    const auto corner = [&](std::size_t k) -> const Vec3& {
-      return surface.vertices[as_index(surface.triangles[t][k])];
-    };
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 along = corner((k + 1) % 3) - corner(k), to = point - corner(k);
-      inside = inside && along.x() * to.y() - along.y() * to.x() <= 0.0;
-    }
-    if (!inside) continue;
-    const double z =
-        corner(0).z() - (twice.head<2>().dot((point - corner(0)).head<2>())) / twice.z();
-    if (z < point.z() - own * (high - low)) end = std::max(end, z);
-  }
-  return point.z() - end;
+  return below(surface, point).first;
 }
 
 geometry::CurvatureEstimate curvature_of_file(const geometry::SmoothSurface& surface,
@@ -305,7 +341,9 @@ SurfaceTouch surface_touch(const Scenario& scenario, const std::string& folder,
   // The mesh is as it is in the file.
   Scenario plain = scenario;
   scenario::refinement(plain.tissue.mesh).refine = false;
-  SurfaceTouch touch = of_file(shapes.shape(plain, folder).surface, scenario);
+  const SpecimenShape& shape = shapes.shape(plain, folder);
+  SurfaceTouch touch = of_file(shape.surface, scenario);
+  touch.warning = shape.warning;
   if (touch.known()) touch.cannot = "its shape comes from a file of tetrahedra";
   return touch;
 }

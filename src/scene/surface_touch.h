@@ -20,8 +20,10 @@ struct SurfaceTouch {
   Vec3 size = Vec3::Constant(std::numeric_limits<double>::infinity());  // m, of the bounding box
   // m, from the touch straight down to where the body ends, or the wall of a hollow one.
   double thickness = std::numeric_limits<double>::infinity();
-  // m, the same where what is down there is held; infinite above a wall or a side that is free.
+  // m, from there straight down to what is held, over cavities and gaps, and what is tissue of it;
+  // infinite above a side that is free.
   double to_base = std::numeric_limits<double>::infinity();
+  double tissue_to_base = std::numeric_limits<double>::infinity();
   Vec3 lowest = Vec3::Zero();     // m, the lowest point of one sphere at first touch
   Vec3 position = Vec3::Zero();   // m, of the surface
   geometry::Curvature curvature;  // there, with the normal
@@ -31,7 +33,7 @@ struct SurfaceTouch {
   double width = 1.0;        // of the contact at the deepest travel, as width_on_edge()
   bool one_sided = false;    // the curvature has StarStatus::one_sided
   std::string cannot = {};   // why there is no curvature; empty if there is one
-  std::string warning = {};  // on a surface that was mended; empty if it is as the file gives it
+  std::string warning = {};  // on what was made of the file; empty if it is taken as it is
   bool nowhere = false;      // no model can press here: beside the body, or it is not sound
 
   [[nodiscard]] bool known() const { return cannot.empty(); }

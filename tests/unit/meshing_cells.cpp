@@ -225,6 +225,64 @@ TEST_F(CellFiles, what_only_touches_is_parted) {
   }
 }
 
+// x + x^2 takes the unit tetrahedron of 1/6 to one of 1/6 + 2/24 = 1/4, and its corners to those of
+// one of 1/3; beside it lies the unit tetrahedron, with its middles on straight edges.
+TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_change) {
+  const std::vector<std::array<double, 3>> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<std::pair<int, int>> edges{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+  std::vector<std::string> places;
+  for (const double curve : {1.0, 0.0}) {
+    std::vector<std::array<double, 3>> ten = corners;
+    for (const auto& [a, b] : edges)
+      ten.push_back({(corners[as_index(a)][0] + corners[as_index(b)][0]) / 2,
+                     (corners[as_index(a)][1] + corners[as_index(b)][1]) / 2,
+                     (corners[as_index(a)][2] + corners[as_index(b)][2]) / 2});
+    for (auto& [x, y, z] : ten)
+      places.push_back(number_text(curve == 0.0 ? x + 5.0 : x + x * x) + " " + number_text(y) +
+                       " " + number_text(z));
+  }
+  const auto commas = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find(' ', at)) != std::string::npos; at += 2)
+      text.replace(at, 1, ", ");
+    return text;
+  };
+  const auto gmsh = [&](const std::vector<int>& cells) {
+    std::string text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"lump\"\n"
+        "$EndPhysicalNames\n$Nodes\n20\n";
+    for (int n = 0; n < 20; ++n) text += std::to_string(n + 1) + " " + places[as_index(n)] + "\n";
+    text += "$EndNodes\n$Elements\n" + std::to_string(cells.size()) + "\n";
+    for (const int cell : cells)
+      text += std::to_string(cell + 1) + " 11 2 " + (cell == 0 ? "7" : "0") + " 1 " +
+              text_of({0, 1, 2, 3, 4, 5, 6, 7, 9, 8}, 10 * cell + 1) + "\n";
+    return text + "$EndElements\n";
+  };
+  std::string abaqus_text = "*Node\n", vtk_text =
+                                           "# vtk DataFile Version 3.0\nt\nASCII\nDATASET "
+                                           "UNSTRUCTURED_GRID\nPOINTS 20 double\n";
+  for (int n = 0; n < 20; ++n) {
+    abaqus_text += std::to_string(n + 1) + ", " + commas(places[as_index(n)]) + "\n";
+    vtk_text += places[as_index(n)] + "\n";
+  }
+  const std::vector<int> ten{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  abaqus_text += "*Element, type=C3D10, elset=lump\n1, " + text_of(ten, 1, ", ") +
+                 "\n*Element, type=C3D10\n2, " + text_of(ten, 11, ", ") + "\n";
+  vtk_text +=
+      "CELLS 2 22\n10 " + text_of(ten, 0) + "\n10 " + text_of(ten, 10) + "\nCELL_TYPES 2\n24\n24\n";
+  // 1/3 over 1/4, and 1/2 over 1/4 + 1/6.
+  const auto sentence = [](const std::string& file, const std::string& regions) {
+    return "the edges of the cells of " + file +
+           " are taken as straight, and the nodes in their middles are not used: of their "
+           "volumes the body has 20 % more" +
+           regions + "; a finer mesh keeps the shape";
+  };
+  const std::string both = ", region 0 the same, region `lump` 33 % more";
+  EXPECT_EQ(read_mesh(written("q.msh", gmsh({0, 1})), 1.0).warning, sentence("q.msh", both));
+  EXPECT_EQ(read_mesh(written("q.inp", abaqus_text), 1.0).warning, sentence("q.inp", both));
+  EXPECT_EQ(read_mesh(written("q.vtk", vtk_text), 1.0).warning, sentence("q.vtk", ""));
+  EXPECT_EQ(read_mesh(written("straight.msh", gmsh({1})), 1.0).warning, "");
+}
+
 TEST_F(CellFiles, groups_have_names) {
   EXPECT_EQ(read_mesh(written("a.msh", binary_gmsh()), 1.0).names.at("the right part"), 5);
   EXPECT_EQ(read_mesh(written("a.inp", abaqus()), 1.0).names.at("Right"), 1);

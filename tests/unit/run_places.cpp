@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "geometry/cuboid.h"
@@ -16,7 +17,9 @@
 #include "run/picture.h"
 #include "run/refined_mesh.h"
 #include "run_text.h"
+#include "scene/proportions.h"
 #include "scene/scene.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::scene {
 namespace {
@@ -107,6 +110,104 @@ TEST_F(PlacedBody, the_way_of_the_finger_becomes_minus_z) {
   EXPECT_EQ(Vec3(side.tissue.turn * Vec3::UnitX()), Vec3(-Vec3::UnitZ()));
   EXPECT_EQ(side.tissue.base_up, Vec3(side.tissue.turn * Vec3::UnitZ()));
   EXPECT_NEAR(side.tissue.turn.determinant(), 1.0, 1e-12);  // rounding
+}
+
+// A cube of 30 mm with a cubic cavity of 18 mm in its middle, both off the nodes of a square.
+class HollowCube : public PlacedBody {
+ protected:
+  HollowCube() {
+    geometry::Surface cube =
+        geometry::sampled(geometry::Cuboid{Vec3(30, 30, 30)}, {10.0, 10.0}).parts.front().surface;
+    const geometry::Surface hole =
+        geometry::sampled(geometry::Cuboid{Vec3(18, 18, 18)}, {6.0, 6.0}).parts.front().surface;
+    const int first = static_cast<int>(cube.vertices.size());
+    for (const Vec3& vertex : hole.vertices) cube.vertices.emplace_back(vertex + Vec3(6, 6, 6));
+    for (const auto& [a, b, c] : hole.triangles)
+      cube.triangles.push_back({first + a, first + c, first + b});
+    meshing::write_surface(folder_ + "/box.off", cube, 1.0);
+  }
+
+  [[nodiscard]] scenario::Family family(const std::string& rest) const {
+    return scenario::parse(
+        "[tissue]\nshape = { file = \"box.off\", unit = \"mm\" }\n[solver]\nmodel = \"solid\"\n" +
+            rest,
+        folder_ + "/press.toml", {});
+  }
+  [[nodiscard]] std::string refusal(const std::string& rest) const {
+    try {
+      const scenario::Family read = family(rest);
+      (void)run::build_scene(read.cases.front(), read);
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      return text.substr(text.find("press.toml"));
+    }
+    return "no error";
+  }
+};
+
+TEST_F(HollowCube, the_tissue_under_the_finger_has_no_cavity) {
+  const scenario::Family read = family(
+      "[finger]\nmaterial = \"rigid\"\nradius = \"8 mm\"\n[[step]]\nkind = \"indent\"\nto = \"7 "
+      "mm\"\n");
+  const Choice choice = run::choose(read.cases.front());
+  EXPECT_NEAR(choice.touch.thickness, 0.006, 1e-12);  // rounding
+  EXPECT_NEAR(choice.touch.tissue_to_base, 0.012, 1e-12);
+  EXPECT_NEAR(choice.touch.to_base, 0.030, 1e-12);
+  const auto notes = disproportions(choice.chosen, choice.touch, choice.expected);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(notes.front().starts_with(
+      "the press takes 58 % of the tissue, which is 12 mm thick between the finger and what holds "
+      "it (without 18 mm that are hollow)"))
+      << notes.front();
+}
+
+TEST_F(HollowCube, places_that_are_not_in_the_body_are_refused) {
+  const std::string press = "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n";
+  EXPECT_TRUE(
+      refusal(press + "[finger]\nradius = \"5 mm\"\nat = [\"900 mm\", \"15 mm\", \"14 mm\"]\n")
+          .starts_with("press.toml:10:6: `at` is 870 mm from the surface of the body, which "
+                       "has x 0 to 30, y 0 to 30, z 0 to 30 mm, in the file's coordinates"));
+  EXPECT_EQ(
+      refusal(press + "[[region]]\nkind = \"sphere\"\nradius = \"5 mm\"\n"
+                      "centre = [\"15 mm\", \"15 mm\", \"15 mm\"]\n"),
+      "press.toml:11:10: `[[region]]` 1 lies in a cavity of the body: it has x 10 to 20, y 10 "
+      "to 20, z 10 to 20 mm, the cavity x 6 to 24, y 6 to 24, z 6 to 24 mm, in the file's "
+      "coordinates; change `centre` or `radius`");
+}
+
+// Held by the lowest tenth of its diagonal: 6 mm of two sides, and the ends between them.
+TEST_F(PlacedBody, the_base_has_the_area_of_the_held_band) {
+  meshing::write_surface(
+      folder_ + "/box.off",
+      geometry::sampled(geometry::Cuboid{Vec3(30, 30, 30)}, {30.0, 30.0}).parts.front().surface,
+      1.0);
+  const scenario::Family read = scenario::parse(
+      "[tissue]\nshape = { file = \"box.off\", unit = \"mm\", up = \"1 1 0\" }\n"
+      "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n",
+      folder_ + "/press.toml", {});
+  SpecimenShapes shapes;
+  const scenario::Resolved found = run::choose(read.cases.front(), shapes).chosen;
+  const auto& body = shapes.surface(found, folder_).surface->surface();
+  EXPECT_NEAR(base_area(found, body, Vec3::Zero(), 0.0).of_surface,
+              (2 * 6.0 * 30.0 + 2 * 18.0) / 5400.0, 1e-6);  // rounding of the file
+}
+
+TEST_F(PlacedBody, a_place_has_no_rounding_for_zero) {
+  const scenario::Resolved side = placed("", "[finger]\ntowards = \"x\"\n");
+  EXPECT_EQ(place_text(side, side.tissue.turn * Vec3(0.05, -8.7e-18, 0.01)), "(50, 0, 10) mm");
+}
+
+TEST_F(PlacedBody, what_was_made_of_a_mesh_file_is_told) {
+  std::ofstream(folder_ + "/box.mesh")
+      << "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n0 0 0 0\n30 0 0 0\n30 30 0 0\n"
+         "0 30 0 0\n0 0 30 0\n30 0 30 0\n30 30 30 0\n0 30 30 0\n"
+         "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n";
+  const scenario::Family family = scenario::parse(
+      "[tissue]\nmesh = { kind = \"file\", file = \"box.mesh\", unit = \"mm\" }\n"
+      "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n",
+      folder_ + "/press.toml", {});
+  EXPECT_EQ(run::choose(family.cases.front()).touch.warning,
+            "1 hexahedra, prisms and pyramids of box.mesh were cut into tetrahedra");
 }
 
 // Twice 30 mm wide with a hole of 20 mm, 10 mm high.
