@@ -116,7 +116,8 @@ std::string reason(const std::string& what) {
     const std::string option = name.substr(0, colon);
     const std::string given = name.substr(colon + 2);
     const std::vector<std::string> known = split(rest.substr(0, rest.size() - 1), ',');
-    const auto near = nearest(given, known);
+    // Of three letters one is too much for a slip.
+    const auto near = given.size() > 3 ? nearest(given, known) : std::nullopt;
     return (option.empty() ? "" : ticked(option) + " got ") + ticked(given) +
            ", which is none of " + joined(known, ", ") +
            (near ? "; did you mean " + ticked(*near) + "?" : "");

@@ -92,7 +92,11 @@ TEST_F(RunSurfaces, are_explained) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_NE(ended.out.find("file ball.off, in m, "), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("top          curvatures 20"), std::string::npos) << ended.out;
-  EXPECT_NE(ended.out.find("mm, where the surface is inclined by 30 degrees"), std::string::npos)
+  EXPECT_NE(ended.out.find("press        at (75, 50, 93.3) mm, in the file's coordinates"),
+            std::string::npos)
+      << ended.out;
+  EXPECT_NE(ended.out.find("positive if convex; the surface is inclined by 30 degrees"),
+            std::string::npos)
       << ended.out;
   EXPECT_NE(ended.out.find("size         change of a half-space's force by the size of the body"),
             std::string::npos);
