@@ -23,15 +23,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double end_time(const record::CaseRecord& record) {
-  if (!record.contact.empty()) return record.contact.back().time;
-  return record.strain.empty() ? 0.0 : record.strain.back().time;
-}
-
 // The time of the first row after the start, s; that of the last one if there is no such row.
 double first_time(const record::CaseRecord& record) {
   if (record.contact.size() > 1) return record.contact[1].time;
-  return record.strain.size() > 1 ? record.strain[1].time : end_time(record);
+  return record.strain.size() > 1 ? record.strain[1].time : record::end_time(record);
 }
 
 // Without findings; the times count the time of modes that are known already.
@@ -170,7 +165,7 @@ class Measurer {
       };
       const auto predicted = [&] {
         const double row = scene.scenario.output.interval;
-        return timing.whole * scene_time(chart) / std::max(end_time(record), row);
+        return timing.whole * scene_time(chart) / std::max(record::end_time(record), row);
       };
       // Variants that differ in the time step alone tell what a step takes.
       double& a_step =
@@ -183,7 +178,7 @@ class Measurer {
       if (first && cut() && !StopScope::stopped() && predicted() < 2.0 * longest_)
         time_within(longest_);
       one.first_simulated = first_time(record);
-      if (const double longer = end_time(record) - one.first_simulated; longer > 0.0)
+      if (const double longer = record::end_time(record) - one.first_simulated; longer > 0.0)
         a_step = (timing.whole - timing.first_row) * one.substep / longer;
       StopScope::end_if_stopped();
       if (cut() && first) return not_run(one, predicted());
@@ -246,7 +241,7 @@ class Measurer {
 
   void compare(const CaseChart& chart, const scene::Scene& scene, const record::CaseRecord& record,
                Measurement& one) {
-    one.simulated = end_time(record);
+    one.simulated = record::end_time(record);
     if (record.outcome == record::Outcome::diverged) {
       one.status = Status::diverged;
       one.note = record.reason + " after " + rounded_text(record.last_stable_time, 3) + " s";

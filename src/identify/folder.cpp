@@ -45,8 +45,7 @@ std::string figure_words(const std::string& name) {
   if (name.starts_with("profile"))
     return "How much worse the fit becomes if one value is fixed and the others are fitted; below "
            "the line the value is within the 95 % interval of the noise. What is not known of "
-           "model, "
-           "body and given values makes the stated interval wider.";
+           "model, body and given values makes the stated interval wider.";
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
 

@@ -41,6 +41,11 @@ std::optional<Peak> peak_of(const CaseRecord& record) {
   return Peak{"stress", unit::kPa.from_si(stress), " kPa"};
 }
 
+double end_time(const CaseRecord& record) {
+  if (!record.contact.empty()) return record.contact.back().time;
+  return record.strain.empty() ? 0.0 : record.strain.back().time;
+}
+
 std::string reached_text(const CaseRecord& record) {
   const std::size_t rows = record.contact.size();
   if (rows < 2 && record.strain.empty()) return "";

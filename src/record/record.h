@@ -159,6 +159,9 @@ struct Peak {
 };
 [[nodiscard]] std::optional<Peak> peak_of(const CaseRecord& record);
 
+// The time (s) of its last row; 0 without rows.
+[[nodiscard]] double end_time(const CaseRecord& record);
+
 // How far the result of a case goes that ended early: `up to a displacement of 3.6 mm`, or to a
 // time where the finger was not pressing deeper; empty if nothing was computed.
 [[nodiscard]] std::string reached_text(const CaseRecord& record);

@@ -112,6 +112,20 @@ std::string peaks(const std::vector<record::CaseRecord>& records) {
   return text + (with.empty() ? "" : ", with ") + with + ".";
 }
 
+// One line per kind of neglected effect.
+void add_neglected(const std::vector<record::CaseRecord>& records,
+                   std::vector<std::string>& lines) {
+  std::vector<NamedSentence> neglected;
+  constexpr std::string_view begins = "Neglected: ";
+  for (const record::CaseRecord& record : records)
+    if (const std::string& text = record.answer.neglected; !record.answer.complete)
+      neglected.push_back({record.name, text.substr(text.starts_with(begins) ? begins.size() : 0)});
+  if (neglected.empty())
+    lines.push_back(records.front().answer.neglected);
+  else
+    for (const std::string& line : said_once(neglected)) lines.push_back("Neglected in " + line);
+}
+
 }  // namespace
 
 std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
@@ -139,24 +153,6 @@ std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
                     ": " + kind.first.sentence);
   return lines;
 }
-
-namespace {
-
-// One line per kind of neglected effect.
-void add_neglected(const std::vector<record::CaseRecord>& records,
-                   std::vector<std::string>& lines) {
-  std::vector<NamedSentence> neglected;
-  constexpr std::string_view begins = "Neglected: ";
-  for (const record::CaseRecord& record : records)
-    if (const std::string& text = record.answer.neglected; !record.answer.complete)
-      neglected.push_back({record.name, text.substr(text.starts_with(begins) ? begins.size() : 0)});
-  if (neglected.empty())
-    lines.push_back(records.front().answer.neglected);
-  else
-    for (const std::string& line : said_once(neglected)) lines.push_back("Neglected in " + line);
-}
-
-}  // namespace
 
 std::vector<std::string> answer_lines(const std::vector<record::CaseRecord>& records) {
   if (records.empty()) return {};

@@ -10,23 +10,17 @@
 #include "scenario/programme.h"
 
 namespace palpate::run {
-namespace {
 
-// The share of its loading history that a case has gone through. `solid` has no rows before its
-// last mesh is done; nothing shows then how far it is, and most such cases are far.
-double share_done(const scene::Scene& scene, const record::CaseRecord& record) {
-  constexpr double unknown = 1.0 / 3.0;
-  const double time = !record.strain.empty()    ? record.strain.back().time
-                      : !record.contact.empty() ? record.contact.back().time
-                                                : 0.0;
+std::optional<double> share_done(const scene::Scene& scene, const record::CaseRecord& record) {
+  const double time = record::end_time(record);
   const double whole = scenario::programme_time(scene.scenario);
-  return time > 0.0 && whole > 0.0 ? std::min(1.0, time / whole) : unknown;
+  return time > 0.0 && whole > 0.0 ? std::optional(std::min(1.0, time / whole)) : std::nullopt;
 }
-
-}  // namespace
 
 double expected_seconds(const std::vector<scene::Scene>& scenes) {
   constexpr double longest = 3.0;  // s
+  // `solid` has no rows before its last mesh is done; most such cases are far.
+  constexpr double far = 1.0 / 3.0;
   const Stopwatch watch;
   double sum = 0.0;
   std::size_t tried = 0;
@@ -36,8 +30,8 @@ double expected_seconds(const std::vector<scene::Scene>& scenes) {
     const double before = processor_seconds();
     const record::CaseRecord record = run_case(scene);
     const double spent = processor_seconds() - before;
-    sum +=
-        record.outcome == record::Outcome::interrupted ? spent / share_done(scene, record) : spent;
+    const bool ended = record.outcome != record::Outcome::interrupted;
+    sum += ended ? spent : spent / share_done(scene, record).value_or(far);
   }
   return tried == 0 ? 0.0 : sum / static_cast<double>(tried) * static_cast<double>(scenes.size());
 }

@@ -161,7 +161,8 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
     for (std::size_t i = 0; i < 2; ++i)  // Euler's formula
       order.curvatures[i] = own.kappa_1 * std::pow(own.direction_1.dot(axes[i]), 2) +
                             own.kappa_2 * std::pow(own.direction_2.dot(axes[i]), 2);
-    order.smooth = finger.centres.size() == 1 && width_ == 1.0;
+    const bool conforms = std::min(own.kappa_1, own.kappa_2) * order.radius <= -1.0;
+    order.smooth = finger.centres.size() == 1 && width_ == 1.0 && !conforms;
   }
   return order;
 }

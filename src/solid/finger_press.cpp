@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "contact/elliptic.h"
+#include "contact/hertz.h"
 #include "geometry/box_tree.h"
 #include "geometry/surface.h"
 
@@ -526,17 +528,18 @@ std::optional<std::pair<double, double>> FingerPress::snap() const {
   return range;
 }
 
-// On a half-space of the tissue at the surface, with its share of the curvatures of the gap.
+// On a half-space of the tissue at the surface, with its share of the curvatures of the gap; of a
+// sphere with the product of these, nearly as an ellipse has it.
 Moment FingerPress::by_hertz(double travel) const {
+  namespace hertz = contact::hertz;
   const tissue::Isotropic& tissue = tissue_at_top(press_->body());
-  const double modulus = tissue.young_modulus / (1.0 - tissue.poisson_ratio * tissue.poisson_ratio);
-  // Of the sphere with the same product of curvatures, nearly as an ellipse has it.
-  const double own = 1.0 / order_.radius;
-  const double radius =
-      1.0 / (order_.share * std::sqrt((own + order_.curvatures[0]) * (own + order_.curvatures[1])));
-  const double square = radius * travel;
-  const double force = 4.0 / 3.0 * modulus * std::sqrt(square) * travel;
-  return {force, std::sqrt(square), 1.5 * force / (std::numbers::pi * square), 1};
+  const contact::Elastic elastic{tissue.young_modulus, tissue.poisson_ratio};
+  const auto& [along_x, along_y] = order_.curvatures;
+  const double radius = contact::geometric_radius(order_.radius, along_x, along_y) / order_.share;
+  const double force =
+      hertz::force(travel, radius, hertz::effective_modulus(0.0, elastic.compliance()));
+  const double a = hertz::contact_radius(travel, radius);
+  return {force, a, hertz::peak_pressure(force, a), 1};
 }
 
 // A quantity over the tissue's travel. The elements are too large for a contact much smaller than

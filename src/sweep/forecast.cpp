@@ -11,6 +11,7 @@
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "run/cost.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scenario/programme.h"
@@ -97,12 +98,9 @@ class Trial {
     const StopScope deadline(longest);
     const Stopwatch running_watch;
     const record::CaseRecord record = run::run_case(scene);
-    const double done = record.strain.empty()
-                            ? record.contact.empty() ? 0.0 : record.contact.back().time
-                            : record.strain.back().time;
-    const double whole = scenario::programme_time(scene.scenario);
-    if (!(done > 0.0) || !(whole > 0.0)) return std::nullopt;
-    const double running = running_watch.seconds() * std::max(1.0, whole / done);
+    const std::optional<double> done = run::share_done(scene, record);
+    if (!done) return std::nullopt;
+    const double running = running_watch.seconds() / *done;
     return set_up * set_ups(family_, true) + running * static_cast<double>(family_.design.count());
   }
 

@@ -112,19 +112,28 @@ TEST_F(PlacedBody, the_way_of_the_finger_becomes_minus_z) {
   EXPECT_NEAR(side.tissue.turn.determinant(), 1.0, 1e-12);  // rounding
 }
 
+// A box with a cavity whose lowest corner is at `at`, in triangles of these sizes.
+geometry::Surface hollow_box(const Vec3& size, double cell, const Vec3& cavity, double cavity_cell,
+                             const Vec3& at) {
+  const auto box = [](const Vec3& of, double edge) {
+    return geometry::sampled(geometry::Cuboid{of}, {edge, edge}).parts.front().surface;
+  };
+  geometry::Surface hollow = box(size, cell);
+  const geometry::Surface inner = box(cavity, cavity_cell);
+  const int first = static_cast<int>(hollow.vertices.size());
+  for (const Vec3& vertex : inner.vertices) hollow.vertices.emplace_back(vertex + at);
+  for (const auto& [a, b, c] : inner.triangles)
+    hollow.triangles.push_back({first + a, first + c, first + b});
+  return hollow;
+}
+
 // A cube of 30 mm with a cubic cavity of 18 mm in its middle, both off the nodes of a square.
 class HollowCube : public PlacedBody {
  protected:
   HollowCube() {
-    geometry::Surface cube =
-        geometry::sampled(geometry::Cuboid{Vec3(30, 30, 30)}, {10.0, 10.0}).parts.front().surface;
-    const geometry::Surface hole =
-        geometry::sampled(geometry::Cuboid{Vec3(18, 18, 18)}, {6.0, 6.0}).parts.front().surface;
-    const int first = static_cast<int>(cube.vertices.size());
-    for (const Vec3& vertex : hole.vertices) cube.vertices.emplace_back(vertex + Vec3(6, 6, 6));
-    for (const auto& [a, b, c] : hole.triangles)
-      cube.triangles.push_back({first + a, first + c, first + b});
-    meshing::write_surface(folder_ + "/box.off", cube, 1.0);
+    meshing::write_surface(folder_ + "/box.off",
+                           hollow_box(Vec3(30, 30, 30), 10.0, Vec3(18, 18, 18), 6.0, Vec3(6, 6, 6)),
+                           1.0);
   }
 
   [[nodiscard]] scenario::Family family(const std::string& rest) const {
@@ -254,15 +263,9 @@ TEST_F(PlacedBody, a_place_is_taken_to_the_surface_and_pressed_along_its_normal)
 class HollowBody : public PlacedBody {
  protected:
   HollowBody() {
-    geometry::Surface hollow =
-        geometry::sampled(geometry::Cuboid{Vec3(60, 60, 40)}, {5.0, 5.0}).parts.front().surface;
-    const geometry::Surface inner =
-        geometry::sampled(geometry::Cuboid{Vec3(20, 20, 10)}, {5.0, 5.0}).parts.front().surface;
-    const int outer = static_cast<int>(hollow.vertices.size());
-    for (const Vec3& vertex : inner.vertices) hollow.vertices.push_back(vertex + Vec3(20, 20, 25));
-    for (const auto& [a, b, c] : inner.triangles)
-      hollow.triangles.push_back({outer + a, outer + c, outer + b});
-    meshing::write_surface(folder_ + "/box.off", hollow, 1.0);
+    meshing::write_surface(
+        folder_ + "/box.off",
+        hollow_box(Vec3(60, 60, 40), 5.0, Vec3(20, 20, 10), 5.0, Vec3(20, 20, 25)), 1.0);
   }
 
   [[nodiscard]] std::pair<double, double> force(const std::string& body) const {
