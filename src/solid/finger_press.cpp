@@ -547,7 +547,7 @@ Moment FingerPress::by_hertz(double travel) const {
 Pairs FingerPress::of_tissue(double Moment::*value) const {
   Pairs found;
   const Point& first = tissue_.points.front();
-  if (order_.smooth && !in_steps_) {
+  if (order_.smooth) {
     const double changed = first.moment.*value / (by_hertz(first.travel).*value);
     for (const double part : {1.0 / 16.0, 1.0 / 4.0})
       found.emplace_back(part * first.travel,

@@ -52,6 +52,9 @@ TEST_F(IdentifyVerb, ReadsTheCurveOfARunAsItIs) {
   const auto estimate = static_cast<std::size_t>(table.find("estimate"));
   EXPECT_NEAR(std::get<double>(table.rows.at(0)[estimate]), 72.4,
               1e-6);  // skin, which `press.toml` has
+  // Nothing is left of which the figure of a profile could tell.
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/press_identified/profile.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/press_identified/profile.svg"));
 }
 
 TEST_F(IdentifyVerb, SaysThatTheFilesAreInTheWrongOrder) {
