@@ -45,7 +45,9 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   // wide. They are up to half as large, and a second mesh says what is left of that.
   constexpr double finest = 2.0;
   const double width = std::sqrt(scene.finger.sphere_radius * deepest_);
-  if (const double wanted = width / free_wall(scene); wanted > per_radius.front()) {
+  const double wall = free_wall(scene);
+  in_steps_ = deepest_ > wall;  // a shell buckles from about a travel of its thickness on
+  if (const double wanted = width / wall; wanted > per_radius.front()) {
     finer_ = std::min(finest, wanted / per_radius.front());
     count = std::max<std::size_t>(count, 2);
   }
@@ -148,6 +150,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
     order.share = 1.0 - finger.compliance_share;
   }
   order.deepest = deepest_;
+  order.in_steps = in_steps_;
   order.touch = {given.first_touch, given.touched};
   order.beside = [this, &finger](const Vec3& place) -> std::optional<solid::Touch> {
     const auto found = scene::touch_beside(this->body(), finger, place);

@@ -65,6 +65,7 @@ class SolidPress {
   double deepest_ = 0.0;                    // m, travel
   double width_ = 1.0;  // of the contact across a sharp edge, over that on a flat
   double finer_ = 1.0;  // elements than asked for, in a thin wall
+  bool in_steps_ = false;
   solid::Moment now_;
   double error_ = 0.0;  // of the last force, a fraction of it
   double worst_ = 0.0;  // of the forces of a wall that buckles, so far

@@ -296,6 +296,13 @@ FingerPress::FingerPress(FingerOrder order) : order_(std::move(order)) {
   for (const Vec3& centre : order_.centres)
     finger.push_back(Indenter::sphere(centre, order_.radius, order_.share));
   press_->set_finger(std::move(finger));
+  begin(order_.in_steps);
+}
+
+void FingerPress::begin(bool in_steps) {
+  in_steps_ = in_steps;
+  tissue_ = {};
+  if (in_steps) press_->solve_by_factors();
   press_->begin(order_.touch.finger);
 }
 
@@ -484,10 +491,7 @@ bool FingerPress::reach(double travel) {
     if (in_steps_) next = (std::round(steps * tissue_.reached / deepest) + 1.0) / steps * deepest;
     take(next, go(next));
     if (!in_steps_ && (lost || !is_power_law() || tissue_.points.empty())) {
-      in_steps_ = true;
-      tissue_ = {};
-      press_->solve_by_factors();
-      press_->begin(order_.touch.finger);
+      begin(true);
       continue;
     }
     if (tissue_.end == End::open) continue;

@@ -68,6 +68,7 @@ struct FingerOrder {
   Touch touch;
   std::array<double, 2> curvatures{};  // 1/m, of the body there along x and y, above 0 if convex
   bool smooth = false;  // whether these are known, and a small contact of one sphere is Hertz's
+  bool in_steps = false;  // many points, as the wall under the finger may buckle between three
   // The touch with the finger at a place beside it (m); nothing where it passes beside the body.
   std::function<std::optional<Touch>(const Vec3& place)> beside = {};
   std::string part = {};  // of a longer way, for the progress of the run
@@ -85,7 +86,7 @@ struct Moment {
 };
 
 // Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
-// its points at a quarter and half of the deepest travel and there, or where a wall buckles at
+// its points at a quarter and half of the deepest travel and there, or where a wall may buckle at
 // every sixteenth, and the logarithm of the force is a parabola of that of the travel between them.
 // Below the first point the contact becomes Hertz's on the tissue at the surface.
 // An elastic finger is a ball of its own radius: each body takes its share of the curvature of the
@@ -108,7 +109,7 @@ class FingerPress {
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
   // Whether a wall gives way, as far as the curve has been found, so that it has sixteen points.
-  [[nodiscard]] bool buckles() const { return in_steps_; }
+  [[nodiscard]] bool buckles() const { return in_steps_ && !(order_.in_steps && is_power_law()); }
   // The displacements (m) between which the force falls first, as far as the curve has been found:
   // the wall snaps through.
   [[nodiscard]] std::optional<std::pair<double, double>> snap() const;
@@ -158,6 +159,7 @@ class FingerPress {
   [[nodiscard]] double higher(const FingerPress& there) const {
     return there.order_.touch.finger.z() - order_.touch.finger.z();
   }
+  void begin(bool in_steps);
   void press_ball(double force);
   [[nodiscard]] double upright() const;
   // The tissue's part of a travel with which both bodies have one force. Forces of one point go on

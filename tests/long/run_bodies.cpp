@@ -269,6 +269,45 @@ TEST(ThinBlock, IsPressedInExplicitStepsAsInStatics) {
     EXPECT_NEAR(last_force(text, model + "\"central_difference\"\n" + more) / still, 1.0, 0.01);
 }
 
+// A cap of 0.7 mm on a rim gives way long before a quarter of a deep travel, after which its
+// force grows like that of a plate that bends.
+TEST(Shell, BucklesWhereALessDeepPressHasItBuckle) {
+  const test::TemporaryFolder folder;
+  test::Profile profile;
+  constexpr int parts = 24;
+  const auto arc = [&](double radius, int i) {
+    const double angle = std::numbers::pi / 6.0 * i / parts;
+    profile.push_back({radius * std::sin(angle), radius * std::cos(angle)});
+  };
+  for (int i = 0; i <= parts; ++i) arc(40.35, i);
+  const auto [side, rim] = profile.back();
+  profile.push_back({side + 6.0, rim});
+  profile.push_back({side + 6.0, rim - 8.0});
+  profile.push_back({0.5 * 39.65, rim - 8.0});
+  for (int i = parts; i >= 0; --i) arc(39.65, i);
+  const double spacing = 2.0;
+  (void)test::write_surface(profile, spacing, folder.path() / "cap.off");
+  const auto pressed = [&](const std::string& travel) {
+    return test::run_text(
+        "[tissue]\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.4\nviscosity = \"none\"\nshape = "
+        "{ file "
+        "= \"" +
+        (folder.path() / "cap.off").string() +
+        "\", unit = \"mm\" }\n[finger]\nmaterial = "
+        "\"rigid\"\nradius = \"12 mm\"\n[solver]\nmodel = \"solid\"\n[output]\npressure_maps = "
+        "false\n"
+        "interval = \"500 ms\"\n[[step]]\nkind = \"indent\"\nto = \"" +
+        travel + " mm\"\nrate = \"1 mm/s\"\n");
+  };
+  const record::CaseRecord deep = pressed("10");
+  const record::CaseRecord less = pressed("3");
+  for (const std::size_t i : {1, 2, 3}) {
+    ASSERT_NEAR(deep.contact.at(i).travel, less.contact.at(i).travel, 1e-12);
+    const double force = less.contact.at(i).contact_force;
+    EXPECT_NEAR(deep.contact.at(i).contact_force, force, 0.2 * force) << i;  // steps of 0.6 mm
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Bodies, testing::ValuesIn(test::all_bodies()));
 
 }  // namespace

@@ -221,6 +221,15 @@ TEST(FingerPress, AWallThatBucklesIsPressedInSteps) {
   EXPECT_FALSE(block.snap());
 }
 
+// Where the cap has buckled before a quarter of the travel, its force grows like that of a plate up
+// to half of it, and twelve times from there on: that alone says that it gave way before.
+TEST(FingerPress, AForceThatRisesSuddenlyIsThatOfAWallThatBuckled) {
+  const geometry::SmoothSurface shell(cap_on_ring());
+  FingerPress press(on_cap(shell, 12e-3, 12e-3, 5.0));
+  ASSERT_TRUE(press.at_travel(12e-3));
+  EXPECT_TRUE(press.buckles());
+}
+
 // Pressed by half its radius, a ball of 2 MPa on a soft block still is a rigid one.
 TEST(FingerPress, AStiffBallYieldsNothingToASoftBlock) {
   FingerOrder order = plain();
