@@ -16,7 +16,7 @@ root() {
     --hook-dir=/usr/share/mmdebstrap/hooks/file-mirror-automount \
     --dpkgopt='path-exclude=/usr/share/man/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
     --dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-include=/usr/share/doc/*/copyright' \
-    --customize-hook='mkdir "$1/work"' \
+    --customize-hook='mkdir -p "$1/work"' \
     --customize-hook='rm -rf "$1"/etc/apt/sources.list* "$1/etc/resolv.conf" "$1/etc/hostname"' \
     bookworm "$tar" "${sources[@]}"
 }
