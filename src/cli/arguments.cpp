@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "device/link_text.h"
+#include "device/link.h"
 #include "fit/model.h"
 #include "report/export.h"
 #include "scenario/starters.h"

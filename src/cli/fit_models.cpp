@@ -12,7 +12,7 @@
 #include "base/units.h"
 #include "cli/arguments.h"
 #include "fit/contact_model.h"
-#include "fit/contact_warnings.h"
+#include "fit/residual_tests.h"
 #include "fit/fractional.h"
 #include "fit/loading_part.h"
 #include "fit/prony.h"
@@ -502,7 +502,6 @@ fit::Fit solid_after_ramp(std::span<const double> x, std::span<const double> y,
   fit::Fit result = fit::fit_prony(x, y, series, options);
   fit::Estimate& jump = result.parameters[1];
   jump.name = "y_0";
-  jump.initial += result.parameters[0].initial;
   jump.estimate += result.parameters[0].estimate;
   if (const std::vector<double>& v = result.covariance; v.size() == 9) {
     const double t = (jump.ci95_high - jump.ci95_low) / (2.0 * jump.std_error);

@@ -1,4 +1,5 @@
-// Reads replies with JsonScanner; the snapshot and version, which come once, with nlohmann json.
+// Reads replies and events with JsonScanner; the snapshot and version, which come once, with
+// nlohmann json.
 #include "device/inverse3_protocol.h"
 
 #include <algorithm>
@@ -314,6 +315,66 @@ Message probe_message(std::string_view id, IdForm form) {
   Message message = begun_message(id, form);
   add(message, R"("probe_position":{}}}]})");
   return message;
+}
+
+namespace {
+
+struct Words {
+  std::string_view name;
+  std::string_view level;
+  std::string_view device;  // empty if the message names none
+  std::string_view safety;
+};
+
+void read_data(JsonScanner& scanner, Words& words) {
+  if (!scanner.enter('{')) return scanner.skip();
+  while (const auto key = scanner.next_key()) {
+    if (*key == "device_id") {
+      words.device = scanner.string().value_or("");
+    } else if (*key == "safety_type") {
+      words.safety = scanner.string().value_or("");
+    } else {
+      scanner.skip();
+    }
+  }
+}
+
+Event safety_event(const Words& words) {
+  if (words.safety == "ebrake_triggered") return Event::brake;
+  if (words.safety == "ebrake_released") return Event::released;
+  if (words.safety == "stall_detected") return Event::stall;
+  if (words.safety == "stability_ceiling") return Event::ceiling;
+  // A change of the stage is a warning if the risk has grown, and `info` if it has fallen.
+  const bool harmless = words.level == "info" || words.level == "notice";
+  if (words.safety == "fod_stage_changed")
+    return harmless ? Event::stage_lowered : Event::stage_raised;
+  return harmless ? Event::notice : Event::safety;
+}
+
+}  // namespace
+
+Event parse_event(std::string_view message, std::string_view id) {
+  JsonScanner scanner(message);
+  if (!scanner.enter('{')) return Event::garbage;
+  Words words;
+  while (const auto key = scanner.next_key()) {
+    if (*key == "name") {
+      words.name = scanner.string().value_or("");
+    } else if (*key == "level") {
+      words.level = scanner.string().value_or("");
+    } else if (*key == "data") {
+      read_data(scanner, words);
+    } else {
+      scanner.skip();
+    }
+  }
+  if (!scanner.at_end()) return Event::garbage;
+  const bool safety = words.name == "device-safety-triggered";
+  const bool gone = words.name == "device-disconnected";
+  if (!safety && !gone && words.name != "device-busy") return Event::other;
+  if (!words.device.empty() && words.device != id) return Event::other_device;
+  if (safety) return safety_event(words);
+  return gone ? Event::disconnected : Event::busy;
 }
 
 }  // namespace palpate::device::inverse3

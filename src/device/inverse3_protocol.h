@@ -79,4 +79,10 @@ struct Message {
 // {"inverse3":[{"device_id":"049D","commands":{"probe_position":{}}}]}
 [[nodiscard]] Message probe_message(std::string_view id, IdForm form = IdForm::text);
 
+// Reads {"name","category","level","data":{"device_id","safety_type",..},"message"} for the arm
+// `id`. Never allocates and never throws. An event of another device is other_device; an event that
+// names no device is taken as ours; a message that is not a complete JSON object is garbage.
+// docs.haply.co, Inverse Service 3.5: Events & Monitoring.
+[[nodiscard]] Event parse_event(std::string_view message, std::string_view id);
+
 }  // namespace palpate::device::inverse3

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "emulator/faults.h"
+#include "emulator/files.h"
 #include "emulator/gauge.h"
-#include "emulator/log.h"
 #include "emulator/stand.h"
 
 namespace emulator {

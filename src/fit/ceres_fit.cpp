@@ -141,7 +141,6 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
   ceres::Solve(solver_options(y.size(), search), &problem, &summary);
 
   Minimum minimum;
-  minimum.iterations = static_cast<int>(summary.iterations.size());
   if (!summary.IsSolutionUsable()) return minimum;
   minimum.status = summary.termination_type == ceres::CONVERGENCE
                        ? Minimum::Status::found

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/model.h"
+#include "fit/regression.h"
 
 namespace palpate::fit {
 
@@ -17,7 +17,6 @@ struct Minimum {
   Status status = Status::failed;
   std::vector<double> parameters;
   double squares = 0.0;  // sum of squared residuals
-  int iterations = 0;
   // (J^T J)^-1 at the minimum, by rows; empty if J lacks full rank or no minimum was found.
   std::vector<double> inverse_normal;
   // At the minimum: value_i - y_i, and its derivatives, one row per point; empty if none was found.
@@ -52,5 +51,18 @@ struct Descent {
 // The same for the curve of `model` over x, with the derivatives of slopes().
 [[nodiscard]] Minimum minimise(std::span<const double> x, std::span<const double> y, Model model,
                                std::span<const double> start, int max_iterations);
+
+// How the data and unknowns of a search were scaled.
+struct Scaling {
+  std::span<const double> y;           // scaled, of order one
+  double y_scale = 1.0;                // unscaled y divided by scaled y
+  std::span<const double> parameters;  // each parameter divided by its unknown in the search
+  Residuals residuals = Residuals::independent;
+};
+
+// Completes a fit whose n and parameters' names are set: termination, estimates, rmse, R^2 and, if
+// it has converged, the covariance (J^T J)^-1 SSE / (n - p) and Student's 95 % intervals;
+// for correlated residuals the covariance and degrees of freedom of correlated.h.
+void settle(Fit& fit, const Minimum& minimum, const Scaling& scaling);
 
 }  // namespace palpate::fit

@@ -7,16 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "fit/tip.h"
+
 namespace palpate::fit {
 
 // What is added to the contact force: nothing, a constant force, or a straight line over depth.
 enum class Baseline { none, offset, tilt };
 
-// Force and stiffness of a contact law for E* = 1 Pa; no force at depths of 0 and less.
-struct UnitForce {
-  double force, stiffness;
-};
-using UnitLaw = std::function<UnitForce(double depth)>;
+// A contact law for E* = 1 Pa; no force at depths of 0 and less.
+using UnitLaw = std::function<TipForce(double depth)>;
 
 // Rows of depth (m) and force of order one, of equal number; `low` and `high` bound the depths.
 struct PressRows {

@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "fit/ceres_fit.h"
 #include "fit/separable.h"
-#include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {
@@ -92,15 +92,9 @@ Fit fit_fractional(std::span<const double> x, std::span<const double> y, Fractio
   fit.n = static_cast<int>(times.size());
   fit.excluded = static_cast<int>(x.size()) - fit.n;
   const std::size_t count = fit.parameters.size();
-  if (times.size() <= count)
-    throw InputError({}, "the model `" + fit.name + "` needs at least " +
-                             std::to_string(count + 1) + " points after the step, and " +
-                             std::to_string(times.size()) + (times.size() == 1 ? " is" : " are") +
-                             " usable; record more points, or give `--origin`");
-  double y_scale = 0.0;
-  for (const double each : values) y_scale = std::max(y_scale, std::abs(each));
-  if (!(y_scale > 0.0)) y_scale = 1.0;
-  for (double& each : values) each /= y_scale;
+  need_points(fit.name, count + 1, times.size(), " after the step",
+              "; record more points, or give `--origin`");
+  const double y_scale = scale_to_one(values);
   const double length = *std::max_element(times.begin(), times.end());
   for (double& each : times) each /= length;
 

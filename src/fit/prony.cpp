@@ -12,12 +12,49 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "fit/ceres_fit.h"
-#include "fit/nnls.h"
 #include "fit/separable.h"
-#include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {
+
+struct Term {
+  double value, slope;
+};
+
+// e^(-t/tau), and d/d ln tau = t/tau e^(-t/tau)
+Term after_step(double t, double tau) {
+  const double left = std::exp(-t / tau);
+  return {left, t / tau * left};
+}
+
+Term after_ramp(double t, double tau, double ramp) {
+  if (t <= 0.0) return {0.0, 0.0};
+  const double since_start = std::exp(-t / tau);
+  if (t < ramp) {
+    const double value = -tau / ramp * std::expm1(-t / tau);
+    return {value, value - t / ramp * since_start};
+  }
+  const double since_end = std::exp(-(t - ramp) / tau);
+  // since_end - since_start = since_end (1 - e^(-ramp/tau)), without cancellation
+  const double value = -tau / ramp * since_end * std::expm1(-ramp / tau);
+  return {value, value + (t - ramp) / ramp * since_end - t / ramp * since_start};
+}
+
+// Least squares over the columns that are free; the others are 0.
+Eigen::VectorXd over_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                          const std::vector<char>& free) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index i = 0; i < a.cols(); ++i)
+    if (free[static_cast<std::size_t>(i)] != 0) columns.push_back(i);
+  Eigen::MatrixXd some(a.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    some.col(static_cast<Eigen::Index>(k)) = a.col(columns[k]);
+  const Eigen::VectorXd solved = dense::least_squares(some, b);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(a.cols());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all[columns[k]] = solved[static_cast<Eigen::Index>(k)];
+  return all;
+}
 
 struct Points {
   std::vector<double> x;   // minus x_origin, divided by x_scale
@@ -61,19 +98,13 @@ Points usable(std::span<const double> x, std::span<const double> y, const PronyS
   }
   fit.n = static_cast<int>(points.x.size());
   fit.excluded = static_cast<int>(x.size()) - fit.n;
-  if (fit.n < needed)
-    throw InputError({}, "the model `" + fit.name + "` needs at least " + std::to_string(needed) +
-                             " points for this number of terms, and " + std::to_string(fit.n) +
-                             (fit.n == 1 ? " is" : " are") +
-                             " usable; record more points, or give fewer `--terms`");
+  need_points(fit.name, as_index(needed), points.x.size(), " for this number of terms",
+              "; record more points, or give fewer `--terms`");
   if (fit.range_low == fit.range_high)
     throw InputError({}, "all points have the same x; give a curve over time");
   points.x_scale = fit.range_high - fit.range_low;
-  double largest = 0.0;
-  for (const double each : points.y) largest = std::max(largest, std::abs(each));
-  points.y_scale = largest > 0.0 ? largest : 1.0;
+  points.y_scale = scale_to_one(points.y);
   for (double& each : points.x) each /= points.x_scale;
-  for (double& each : points.y) each /= points.y_scale;
   points.history.ramp = series.history.ramp / points.x_scale;
   scale_history(points);
   std::vector<double> sorted = points.x;
@@ -274,6 +305,88 @@ std::string law_of(const PronySeries& series) {
 
 }  // namespace
 
+// Closed forms for steps and ramps, a recursion for histories that were measured.
+BasisColumn relaxing(std::span<const double> t, double tau, const LoadingHistory& history) {
+  BasisColumn column;
+  column.value.reserve(t.size());
+  column.slope.reserve(t.size());
+  if (history.samples.empty()) {
+    for (const double each : t) {
+      const Term term =
+          history.ramp > 0.0 ? after_ramp(each, tau, history.ramp) : after_step(each, tau);
+      column.value.push_back(term.value);
+      column.slope.push_back(term.slope);
+    }
+    return column;
+  }
+  // phi_i = phi_(i-1) e^(-d/tau) + r tau (1 - e^(-d/tau)), r the rate of the history in d
+  double value = history.samples.front();
+  double slope = 0.0;
+  column.value.push_back(value);
+  column.slope.push_back(slope);
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double d = t[i] - t[i - 1];
+    const double change = history.samples[i] - history.samples[i - 1];
+    if (d <= 0.0) {
+      value += change;
+    } else {
+      const double left = std::exp(-d / tau);
+      const double gain = -tau / d * std::expm1(-d / tau);  // of a ramp over d
+      slope = left * (slope + value * d / tau) + change * (gain - left);
+      value = left * value + change * gain;
+    }
+    column.value.push_back(value);
+    column.slope.push_back(slope);
+  }
+  return column;
+}
+
+std::vector<double> loading(std::span<const double> t, const LoadingHistory& history) {
+  if (!history.samples.empty()) return history.samples;
+  std::vector<double> values;
+  for (const double each : t)
+    values.push_back(history.ramp > 0.0 ? std::clamp(each / history.ramp, 0.0, 1.0) : 1.0);
+  return values;
+}
+
+// The rows are first reduced to as many as there are columns by a QR decomposition.
+std::optional<Eigen::VectorXd> nonnegative_least_squares(const Eigen::MatrixXd& given,
+                                                         const Eigen::VectorXd& target) {
+  const Eigen::Index n = given.cols();
+  const auto [q, a] = dense::qr(given);
+  const Eigen::VectorXd b = q.transpose() * target;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  std::vector<char> free(static_cast<std::size_t>(n), 0);
+  const double small = 1e-13 * a.colwise().norm().maxCoeff() * target.norm();
+  for (Eigen::Index change = 0; change <= 3 * n; ++change) {
+    // The gradient's largest component among the columns held at 0.
+    const Eigen::VectorXd gradient = a.transpose() * (b - a * x);
+    Eigen::Index next = -1;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (free[static_cast<std::size_t>(i)] == 0 && gradient[i] > small &&
+          (next < 0 || gradient[i] > gradient[next]))
+        next = i;
+    if (next < 0) return x;
+    free[static_cast<std::size_t>(next)] = 1;
+    // Back to the border as long as a free coefficient would become negative.
+    for (Eigen::Index inner = 0; inner <= n; ++inner) {
+      const Eigen::VectorXd wanted = over_free(a, b, free);
+      double step = 1.0;
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (free[static_cast<std::size_t>(i)] != 0 && wanted[i] <= 0.0)
+          step = std::min(step, x[i] / (x[i] - wanted[i]));
+      x += step * (wanted - x);
+      if (step >= 1.0) break;
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (free[static_cast<std::size_t>(i)] != 0 && x[i] <= 1e-15 * x.cwiseAbs().maxCoeff()) {
+          free[static_cast<std::size_t>(i)] = 0;
+          x[i] = 0.0;
+        }
+    }
+  }
+  return std::nullopt;
+}
+
 Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronySeries& series,
               const Options& options) {
   assert(x.size() == y.size() && series.terms >= 1 && series.terms <= most_terms);
@@ -328,10 +441,6 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
   std::vector<double> scale(count, points.y_scale);
   if (lead > 1) scale[1] /= points.x_scale;
   for (std::size_t i = lead + 1; i < count; i += 2) scale[i] = points.x_scale;
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool time = i > lead && (i - lead) % 2 == 1;
-    fit.parameters[i].initial = (time ? std::exp(start[i]) : start[i]) * scale[i];
-  }
   if (minimum.status != Minimum::Status::failed) finish_terms(minimum, lead);
   settle(fit, minimum, {points.y, points.y_scale, scale, options.residuals});
   return fit;

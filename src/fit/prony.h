@@ -1,12 +1,39 @@
-// Fits relaxation and creep with a sum of exponentials (Prony series).
+// Fits relaxation and creep with a sum of exponentials (Prony series), under the loading history of
+// the test.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <span>
+#include <vector>
 
-#include "fit/prony_basis.h"
 #include "fit/regression.h"
 
 namespace palpate::fit {
+
+// Strain (relaxation) or stress (creep) over time, as a share of its largest value.
+struct LoadingHistory {
+  double ramp = 0.0;  // duration of a ramp at constant rate from 0; 0: a step
+  std::vector<double>
+      samples;  // one per point, linear between them and 0 before; instead of a ramp
+
+  [[nodiscard]] bool step() const { return ramp == 0.0 && samples.empty(); }
+};
+
+// One term at all points and its derivative with respect to ln tau.
+struct BasisColumn {
+  std::vector<double> value, slope;
+};
+
+// phi(t) = integral from 0 to t of e^(-(t-s)/tau) dH/ds ds, Boltzmann's superposition of the
+// history H, for the times `t` in ascending order from the start of the loading. Step: e^(-t/tau).
+// Ramp of duration T: tau/T (1 - e^(-t/tau)), and from T on tau/T (e^(-(t-T)/tau) - e^(-t/tau)).
+//                                                                            docs/theory.md [ramp]
+[[nodiscard]] BasisColumn relaxing(std::span<const double> t, double tau,
+                                   const LoadingHistory& history);
+
+// H at the times: 1 for a step.
+[[nodiscard]] std::vector<double> loading(std::span<const double> t, const LoadingHistory& history);
 
 struct PronySeries {
   enum class Kind {
@@ -16,7 +43,7 @@ struct PronySeries {
   Kind kind = Kind::relaxation;
   int terms = 2;                // 1 to 5 with free times; above, the times are given
   bool liquid = false;          // relaxation to 0; creep that goes on: y_flow times the time
-  LoadingHistory history = {};  // with a ramp, phi_k(x) of prony_basis.h replaces e^(-x/tau_k)
+  LoadingHistory history = {};  // with a ramp, phi_k(x) of relaxing() replaces e^(-x/tau_k)
 };
 
 constexpr int most_free_terms = 5;
@@ -33,5 +60,11 @@ constexpr int most_terms = 60;
 // ascend.
 [[nodiscard]] Fit fit_prony(std::span<const double> x, std::span<const double> y,
                             const PronySeries& series, const Options& options = {});
+
+// The x >= 0 that minimises |A x - b|, by the active set of Lawson and Hanson, Solving Least
+// Squares Problems, 1974, chapter 23. `a` has at least as many rows as columns. Nothing if the
+// active set has not settled after 3 changes per column.
+[[nodiscard]] std::optional<Eigen::VectorXd> nonnegative_least_squares(const Eigen::MatrixXd& a,
+                                                                       const Eigen::VectorXd& b);
 
 }  // namespace palpate::fit

@@ -4,14 +4,16 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <map>
 
+#include "base/dense.h"
 #include "base/error.h"
+#include "base/index.h"
 #include "base/numerics.h"
 #include "fit/ceres_fit.h"
 #include "fit/correlated.h"
-#include "fit/initial.h"
 #include "fit/residual_tests.h"
-#include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {
@@ -26,35 +28,19 @@ struct CurvePoints {
 CurvePoints usable(std::span<const double> x, std::span<const double> y, const Options& options,
                    Fit& fit) {
   CurvePoints points;
-  double largest = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double from_origin = x[i] - options.x_origin;
     const bool outside = info(fit.model).positive_x_only && from_origin <= 0.0;
     if (!std::isfinite(from_origin) || !std::isfinite(y[i]) || outside) continue;
     points.x.push_back(from_origin);
     points.y.push_back(y[i]);
-    largest = std::max(largest, std::abs(y[i]));
     fit.range_low = std::fmin(fit.range_low, x[i]);  // fmin ignores the initial NaN
     fit.range_high = std::fmax(fit.range_high, x[i]);
   }
-  if (largest > 0.0) points.y_scale = largest;
-  for (double& each : points.y) each /= points.y_scale;
+  points.y_scale = scale_to_one(points.y);
   fit.n = static_cast<int>(points.x.size());
   fit.excluded = static_cast<int>(x.size()) - fit.n;
   return points;
-}
-
-void refuse_too_few(const Fit& fit) {
-  const int needed = static_cast<int>(fit.parameters.size()) + 1;
-  if (fit.n >= needed) return;
-  const ModelInfo& model = info(fit.model);
-  std::string message = "the model `" + std::string(model.name) + "` needs at least " +
-                        std::to_string(needed) + " points, and " + std::to_string(fit.n) +
-                        (fit.n == 1 ? " is" : " are") + " usable";
-  if (fit.excluded > 0)
-    message += " (" + std::to_string(fit.excluded) + " excluded: not finite" +
-               (model.positive_x_only ? ", or x not above 0)" : ")");
-  throw InputError({}, message + "; record more points, or fit a model with fewer parameters");
 }
 
 // 1 - SSE / SST about the mean, both of the scaled y; NaN if y is constant.
@@ -95,6 +81,59 @@ void set_errors(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
   }
 }
 
+std::vector<double> shapes(Model model, double scale) {
+  std::vector<double> grid;
+  switch (model) {
+    case Model::logarithmic: return {0.0};
+    case Model::power:
+      for (int i = -16; i <= 40; ++i) grid.push_back(0.25 * i);
+      break;
+    case Model::exponential:  // |m| from 1e-3 to 1e2 divided by the largest |x|, both signs
+      for (int i = -24; i <= 16; ++i)
+        for (const double sign : {1.0, -1.0})
+          grid.push_back(sign * std::pow(10.0, i / 8.0) / scale);
+      break;
+    case Model::kelvin_voigt:
+    case Model::kelvin_voigt_recovery:
+    case Model::standard_linear_solid:  // tau from 1e-3 to 1e3 times the largest |x|
+      for (int i = -24; i <= 24; ++i) grid.push_back(std::pow(10.0, i / 8.0) * scale);
+      break;
+  }
+  return grid;
+}
+
+// The terms of a model at all points for one value of its shape parameter.
+struct Trial {
+  double shape;
+  Eigen::MatrixXd terms;
+};
+
+// Those of the last points on this thread: the cases of a sweep have the same ones.
+const std::vector<Trial>& trials(std::span<const double> x, Model model) {
+  struct Known {
+    std::vector<double> x;
+    std::vector<Trial> trials;
+  };
+  thread_local std::map<Model, Known> all;
+  Known& known = all[model];
+  if (!known.trials.empty() && std::equal(x.begin(), x.end(), known.x.begin(), known.x.end()))
+    return known.trials;
+  known = {{x.begin(), x.end()}, {}};
+  double scale = 0.0;
+  for (const double each : x) scale = std::max(scale, std::abs(each));
+  const auto n = static_cast<Eigen::Index>(x.size());
+  const int count = term_count(model);
+  for (const double shape : shapes(model, scale == 0.0 ? 1.0 : scale)) {
+    Trial trial{shape, Eigen::MatrixXd(n, count)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto phi = terms(model, x[as_index(i)], shape);
+      for (int k = 0; k < count; ++k) trial.terms(i, k) = phi[as_index(k)];
+    }
+    if (trial.terms.allFinite()) known.trials.push_back(std::move(trial));
+  }
+  return known.trials;
+}
+
 Termination termination_of(const Minimum& minimum) {
   if (minimum.status == Minimum::Status::failed) return Termination::failed;
   if (minimum.status == Minimum::Status::out_of_iterations) return Termination::not_converged;
@@ -105,7 +144,6 @@ Termination termination_of(const Minimum& minimum) {
 
 void settle(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
   fit.termination = termination_of(minimum);
-  fit.iterations = minimum.iterations;
   if (fit.termination == Termination::failed) return;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     fit.parameters[i].estimate = minimum.parameters[i] * scaling.parameters[i];
@@ -125,6 +163,56 @@ std::string_view word(Termination termination) {
   return {};
 }
 
+std::optional<std::vector<double>> initial_guess(std::span<const double> x,
+                                                 std::span<const double> y, Model model) {
+  const Eigen::Map<const Eigen::VectorXd> target(y.data(), static_cast<Eigen::Index>(x.size()));
+  std::optional<std::vector<double>> best;
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd linear(term_count(model));
+  for (const auto& [shape, matrix] : trials(x, model)) {
+    double sum = 0.0;
+    if (linear.size() == 1) {
+      const double along = matrix.col(0).dot(target);
+      linear[0] = along / matrix.col(0).squaredNorm();
+      sum = target.squaredNorm() - along * linear[0];
+    } else {
+      linear = dense::least_squares(matrix, target);
+      sum = (matrix.lazyProduct(linear) - target).squaredNorm();
+    }
+    if (!(sum < least) || !linear.allFinite()) continue;
+    least = sum;
+    best.emplace(linear.begin(), linear.end());
+    if (has_shape(model)) best->push_back(shape);
+  }
+  return best;
+}
+
+void need_points(const std::string& model, std::size_t needed, std::size_t usable,
+                 const std::string& for_what, const std::string& end) {
+  if (usable >= needed) return;
+  throw InputError({}, "the model `" + model + "` needs at least " + std::to_string(needed) +
+                           " points" + for_what + ", and " + std::to_string(usable) +
+                           (usable == 1 ? " is" : " are") + " usable" + end);
+}
+
+std::string excluded_text(std::size_t points, const std::string& why) {
+  return std::to_string(points) + (points == 1 ? " point is" : " points are") + " excluded: " + why;
+}
+
+void leave_out(Fit& fit, std::size_t points, const std::string& why) {
+  if (points == 0) return;
+  fit.excluded += static_cast<int>(points);
+  fit.notes.push_back(excluded_text(points, why));
+}
+
+double scale_to_one(std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double each : values) largest = std::max(largest, std::abs(each));
+  if (!(largest > 0.0)) return 1.0;
+  for (double& each : values) each /= largest;
+  return largest;
+}
+
 Fit regress(std::span<const double> x, std::span<const double> y, Model model,
             const Options& options) {
   assert(x.size() == y.size());
@@ -135,15 +223,17 @@ Fit regress(std::span<const double> x, std::span<const double> y, Model model,
     fit.parameters.push_back({.name = std::string(parameter.name),
                               .unit = unit_text(parameter.unit, options.x_unit, options.y_unit)});
   const CurvePoints points = usable(x, y, options, fit);
-  refuse_too_few(fit);
+  const std::string why = info(model).positive_x_only ? ", or x not above 0)" : ")";
+  need_points(
+      std::string(info(model).name), fit.parameters.size() + 1, points.x.size(), "",
+      (fit.excluded > 0 ? " (" + std::to_string(fit.excluded) + " excluded: not finite" + why
+                        : "") +
+          "; record more points, or fit a model with fewer parameters");
 
   const auto start = initial_guess(points.x, points.y, model);
   if (!start) return fit;
   std::vector<double> scale(start->size(), points.y_scale);
   if (has_shape(model)) scale.back() = 1.0;
-  for (std::size_t i = 0; i < start->size(); ++i)
-    fit.parameters[i].initial = (*start)[i] * scale[i];
-
   const Minimum minimum = minimise(points.x, points.y, model, *start, options.max_iterations);
   settle(fit, minimum, {points.y, points.y_scale, scale, options.residuals});
   return fit;

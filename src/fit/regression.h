@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,7 +27,6 @@ struct Estimate {
 
   std::string name = {};
   std::string unit = {};
-  double initial = unknown;  // initial guess
   double estimate = unknown;
   double std_error = unknown;
   double ci95_low = unknown;
@@ -49,7 +49,6 @@ struct Fit {
   double range_low = Estimate::unknown;  // smallest x used, before x_origin is subtracted
   double range_high = Estimate::unknown;
   double x_origin = 0.0;  // the curve is a function of (x - x_origin)
-  int iterations = 0;
   Termination termination = Termination::failed;
   double rho = 0.0;  // correlation of neighbouring residuals; 0 where taken as independent
   double effective_size = Estimate::unknown;  // independent rows of the same worth
@@ -74,6 +73,27 @@ struct Options {
 // Throws InputError if fewer points are usable than parameters + 1.
 [[nodiscard]] Fit regress(std::span<const double> x, std::span<const double> y, Model model,
                           const Options& options = {});
+
+// The initial guess of regress(): parameters near the least-squares fit, in the order of
+// info(model). For every shape q of a grid (n, or m and tau scaled with the largest |x|) the other
+// parameters are linear and solved for by QR; the smallest sum of squares wins (the first, if
+// several are equal). Nothing if no shape can be evaluated. x and y must be finite and of equal
+// size.
+[[nodiscard]] std::optional<std::vector<double>> initial_guess(std::span<const double> x,
+                                                               std::span<const double> y,
+                                                               Model model);
+
+// Refuses fewer usable points than a model needs: "... needs at least 4 points, and 3 are usable".
+void need_points(const std::string& model, std::size_t needed, std::size_t usable,
+                 const std::string& for_what = "", const std::string& end = "; record more points");
+
+// "3 points are excluded: " and the reason.
+[[nodiscard]] std::string excluded_text(std::size_t points, const std::string& why);
+// Counts points that are not fitted, with the reason in the notes; does nothing for 0 points.
+void leave_out(Fit& fit, std::size_t points, const std::string& why);
+
+// Divides the values by their largest magnitude, and returns it; 1 where all are 0.
+double scale_to_one(std::vector<double>& values);
 
 // The version of the Ceres library, as `2.1.0`.
 [[nodiscard]] std::string ceres_version();

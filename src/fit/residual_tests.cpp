@@ -62,4 +62,14 @@ std::string correlation_sentence(double durbin_watson, std::size_t points, doubl
                            : "");
 }
 
+void warn_of_residuals(Fit& fit) {
+  const auto warn = [&](const std::string& sentence) { fit.warnings.push_back(sentence); };
+  if (fit.r2 < 0.9)
+    warn("R^2 is " + rounded_text(fit.r2, 3) +
+         ", so that the law describes the curve poorly, and the estimates mean little");
+  if (fit.rho > 0.0)
+    warn(correlation_sentence(fit.durbin_watson, static_cast<std::size_t>(fit.n),
+                              fit.effective_size));
+}
+
 }  // namespace palpate::fit

@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 
+#include "fit/regression.h"
+
 namespace palpate::fit {
 
 // sum (e_i - e_(i-1))^2 / sum e_i^2: about 2 for independent residuals, near 0 if neighbours are
@@ -22,5 +24,8 @@ namespace palpate::fit {
 // ones: slow noise and a law that does not fit look alike.
 [[nodiscard]] std::string correlation_sentence(double durbin_watson, std::size_t points,
                                                double effective);
+
+// Adds sentences on R^2 below 0.9 and on correlated residuals to fit.warnings.
+void warn_of_residuals(Fit& fit);
 
 }  // namespace palpate::fit

@@ -78,6 +78,12 @@ TipForce tip_force(const Tip& tip, double depth) {
   return {0.0, 0.0};
 }
 
+double error_of_hertz(double depth, double radius) {
+  const Tip paraboloid{Tip::Kind::paraboloid, radius, 0.0};
+  const Tip sphere{Tip::Kind::sphere, radius, 0.0};
+  return tip_force(paraboloid, depth).force / tip_force(sphere, depth).force - 1.0;
+}
+
 std::string_view word(Tip::Kind kind) { return tips[as_index(kind)].word; }
 
 std::optional<Tip::Kind> find_tip(std::string_view word) {

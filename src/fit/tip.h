@@ -34,6 +34,9 @@ struct TipForce {
 //   flat_punch  F = 2 R h                                                         Sneddon 1965
 [[nodiscard]] TipForce tip_force(const Tip& tip, double depth);
 
+// Hertz's paraboloid against the exact law of a sphere at the same depth, minus 1.
+[[nodiscard]] double error_of_hertz(double depth, double radius);
+
 // The words of `--tip`: paraboloid, sphere, cone, pyramid3, pyramid4, punch.
 [[nodiscard]] std::string_view word(Tip::Kind kind);
 [[nodiscard]] std::optional<Tip::Kind> find_tip(std::string_view word);

@@ -16,12 +16,11 @@
 #include "fit/residual_tests.h"
 #include "fit/step_origin.h"
 #include "identify/box_errors.h"
-#include "identify/box_profile.h"
+#include "identify/box_search.h"
 #include "identify/fixed_model.h"
-#include "identify/lengthen.h"
 #include "identify/prepare_curve.h"
-#include "identify/search_starts.h"
-#include "identify/warnings.h"
+#include "identify/scenario_curve.h"
+#include "identify/tables.h"
 #include "scenario/integrators.h"
 
 namespace palpate::identify {
@@ -48,7 +47,6 @@ struct Part {
   std::vector<Unknown> unknowns;   // those of this pair
   std::vector<std::size_t> index;  // of each, among all unknowns
   std::unique_ptr<ScenarioCurve> curve;
-  std::optional<ClosedCurve> closed;
   std::size_t from = 0, to = 0;  // its points among all
   double rows_each = 1.0;
   DefaultBody body;
@@ -61,10 +59,7 @@ struct Part {
     return some;
   }
   bool values(std::span<const double> all, std::span<double> out) {
-    const std::vector<double> u = own(all);
-    if (!closed) return curve->evaluate(u, out);
-    closed::values(*closed, u.data(), out.data());
-    return true;
+    return curve->evaluate(own(all), out);
   }
 };
 
@@ -135,10 +130,7 @@ class Search {
     found.measured = std::move(prepared.measured);
     part.rows_each = prepared.rows_each;
     part.curve = std::move(prepared.curve);
-    // A model that the scenario names is run: the formula of a uniform test only approximates it.
-    part.closed = part.curve->closed();
-    if (part.closed && found.given && found.kind != CurveKind::force_travel) part.closed.reset();
-    found.closed_form = part.closed.has_value();
+    found.closed_form = part.curve->has_formula();
     part.from = found_.x.size();
     found_.x.insert(found_.x.end(), found.x.begin(), found.x.end());
     found_.measured.insert(found_.measured.end(), found.measured.begin(), found.measured.end());
@@ -160,13 +152,10 @@ class Search {
     }
   }
 
+  void take_first() { static_cast<CurveFit&>(found_) = parts_.front().found; }
+
   void make_problem() {
-    const Identification& first = parts_.front().found;
-    found_.kind = first.kind;
-    found_.given = first.given;
-    found_.taken = first.taken;
-    found_.worst_error = first.worst_error;
-    found_.closed_form = first.closed_form;
+    take_first();
     if (joint()) weigh_pairs();
     for (const Part& part : parts_)
       for (const std::string& text : part.found.notes) note(part, text);
@@ -179,7 +168,7 @@ class Search {
                part.values(u, values.subspan(part.from, part.to - part.from));
       });
     };
-    if (!joint() && parts_.front().closed) problem_.closed = &*parts_.front().closed;
+    problem_.exact = !joint() && found_.closed_form;
     problem_.measured = found_.measured;
     problem_.weights = weights_;
   }
@@ -305,7 +294,7 @@ class Search {
         part.found.predicted_error = predicted_error(at);
       part.body = default_body(*part.curve, *part.family, estimates_of(part));
     }
-    found_.predicted_error = parts_.front().found.predicted_error;
+    take_first();
   }
 
   [[nodiscard]] std::vector<double> estimates_of(const Part& part) const {
@@ -520,10 +509,10 @@ class Search {
         start[contact] = std::clamp(
             unknowns_[contact].inverse(found_.unknowns[contact].estimate + shift), 0.0, 1.0);
       else
-        shift_points(parts_.front(), shift);
+        parts_.front().curve->set_shift(shift);
       const BoxMinimum moved = minimise_in_box(problem_, start, held, Want::squares);
       StopScope::end_if_stopped();
-      if (contact == n) shift_points(parts_.front(), 0.0);
+      if (contact == n) parts_.front().curve->set_shift(0.0);
       found_.evaluations += moved.evaluations;
       if (!moved.found) continue;
       for (std::size_t i = 0; i < n; ++i) {
@@ -542,9 +531,9 @@ class Search {
       std::vector<double> least(unknowns_.size(), 0.0);
       std::vector<double> most = least;
       for (const double start : pairs_[k].measured->starts) {
-        shift_points(parts_[k], start);
+        parts_[k].curve->set_shift(start);
         const BoxMinimum moved = minimise_in_box(problem_, best_.u, {}, Want::squares);
-        shift_points(parts_[k], 0.0);
+        parts_[k].curve->set_shift(0.0);
         StopScope::end_if_stopped();
         found_.evaluations += moved.evaluations;
         for (std::size_t i = 0; i < least.size() && moved.found; ++i) {
@@ -567,13 +556,6 @@ class Search {
     for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, by_high);
   }
 
-  void shift_points(Part& part, double shift) {
-    part.curve->set_shift(shift);
-    if (part.closed)
-      for (std::size_t i = 0; i < part.closed->x.size(); ++i)
-        part.closed->x[i] = found_.x[part.from + i] - shift;
-  }
-
   void conclude() {
     std::vector<double> weighted;
     for (std::size_t i = 0; i < found_.x.size(); ++i)
@@ -584,15 +566,11 @@ class Search {
                    (options_.noise == Noise::constant && !joint() ? range : 1.0);
     found_.threshold = t_ * t_;
     found_.durbin_watson = fit::durbin_watson(weighted);
-    found_.runs_z = fit::runs_z(weighted);
     if (options_.model_error) widen_by_model();
     widen_along_the_valley();
     for (Part& part : parts_) conclude_part(part);
-    found_.rmse = first.found.rmse;
-    found_.r2 = first.found.r2;
+    take_first();
     for (const Part& part : parts_) found_.r2 = std::min(found_.r2, part.found.r2);
-    found_.deep_effect = first.found.deep_effect;
-    found_.scenario = first.found.scenario;
     if (joint())
       for (const Part& part : parts_) found_.pairs.push_back(part.found);
     found_.warnings =

@@ -172,20 +172,20 @@ class GaugeLoop {
         fell(sample, -change);
       else
         rest_.add(sample.force);
-      line_ = TouchLine();
+      line_ = StraightLine();
       last_free_ = time;
       return false;
     }
-    line_.add(-time, change);
+    line_.add(time, linear_in_depth(change));
     first_.push_back(sample);
     if (change < beginning()) return false;
     tare_ = rest_.mean();
     if (std::abs(tare_) > told_tare * least)
       loop_.warnings.push_back("the gauge showed " + rounded_text(1e3 * tare_, 3) +
                                " mN at rest, which is taken out of all forces; tare it");
-    const auto contact = line_.surface();
-    first_time_ =
-        contact ? std::min(-*contact, time_of(first_.front())) : last_free_.value_or(time);
+    const auto line = line_.found();
+    first_time_ = line && line->slope > 0.0 ? std::min(line->zero, time_of(first_.front()))
+                                            : last_free_.value_or(time);
     for (const Sample& one : std::exchange(first_, {})) write(one);
     return true;
   }
@@ -254,7 +254,7 @@ class GaugeLoop {
   double first_time_ = 0.0;  // s, of the first row or of the contact
   Readings rest_;            // before the contact
   double tare_ = 0.0;        // N
-  TouchLine line_;
+  StraightLine line_;
   std::vector<Sample> first_;        // in contact, before the rows
   std::vector<Sample> low_;          // in a row below those at rest
   std::optional<double> last_free_;  // s, of the last reading without force

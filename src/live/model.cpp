@@ -92,9 +92,9 @@ FrameCost predict_cost(const scene::Scene& scene, LiveModel& model, double frame
   std::vector<double> times;
   FrameCost cost;
   const int all = 2 * frames;
-  for (int i = 0; i <= all && !cost.wrong; ++i) {
+  for (int i = 0; i <= all; ++i) {
     const Stopwatch watch;
-    cost.wrong = model.follow(Vec3(0.0, 0.0, -deepest * i / all), frame * i);
+    if (model.follow(Vec3(0.0, 0.0, -deepest * i / all), frame * i)) break;
     if (i > frames) times.push_back(watch.seconds());
   }
   cost.force = model.touch().force();

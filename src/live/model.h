@@ -56,10 +56,9 @@ class LiveModel {
 
 // Run time of a frame of the model on this machine.
 struct FrameCost {
-  double median = 0.0;               // s
-  double p99 = 0.0;                  // s, 99th percentile
-  double force = 0.0;                // N, at the largest displacement of the loading history
-  std::optional<std::string> wrong;  // why the model ended before; empty if it did not
+  double median = 0.0;  // s
+  double p99 = 0.0;     // s, 99th percentile
+  double force = 0.0;   // N, at the largest displacement of the loading history
 };
 
 // Presses the model, which is at its start, to the deepest travel of the scene's loading history in

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "contact/hertz.h"
 #include "device/mark10_protocol.h"
-#include "device/stand_safety.h"
+#include "device/safety.h"
 #include "live/guide.h"
 #include "live/loop.h"
 #include "live/touch.h"
