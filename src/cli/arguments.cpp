@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "device/link.h"
-#include "fit/model.h"
+#include "fit/regression.h"
 #include "report/export.h"
 #include "scenario/starters.h"
 

@@ -12,13 +12,10 @@
 #include "base/units.h"
 #include "cli/arguments.h"
 #include "fit/contact_model.h"
-#include "fit/residual_tests.h"
-#include "fit/fractional.h"
-#include "fit/loading_part.h"
+#include "fit/parts.h"
 #include "fit/prony.h"
-#include "fit/step_origin.h"
+#include "fit/residuals.h"
 #include "fit/uniaxial.h"
-#include "fit/viscous_contact.h"
 #include "measured/measured.h"
 
 namespace palpate::cli {

@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>

@@ -60,7 +60,7 @@ struct StandAddress {
 };
 struct GaugeAddress {
   std::string port;      // path of a serial line
-  std::string settings;  // path of a TOML file: line_settings.h
+  std::string settings;  // path of a TOML file: line_gauge.h
 };
 struct ArmAddress {
   std::string host;

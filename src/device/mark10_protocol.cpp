@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "device/line_buffer.h"
+#include "device/serial_port.h"
 
 namespace palpate::device::mark10 {
 namespace {

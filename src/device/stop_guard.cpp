@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
+
 #include <array>
 #include <atomic>
 #include <cassert>

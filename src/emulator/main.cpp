@@ -12,8 +12,8 @@
 #include "emulator/arm.h"
 #include "emulator/files.h"
 #include "emulator/line_gauge.h"
-#include "emulator/mark10.h"
-#include "emulator/pty_loop.h"
+#include "emulator/serial_device.h"
+#include "emulator/stand.h"
 
 namespace emulator {
 namespace {

@@ -1,10 +1,13 @@
-// The motorised stand with its gauge, pressing the tissue: commands, replies and motion in time.
+// The motorised stand with its gauge, pressing the tissue: commands, replies and motion in time, on
+// its serial line, with clocks and faults; bytes are texts, without a port.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "emulator/gauge.h"
+#include "emulator/serial_device.h"
 #include "emulator/tissue.h"
 
 namespace emulator {
@@ -39,15 +42,6 @@ void send_off(Crosshead& crosshead, int direction);
 void halt(Crosshead& crosshead);  // brakes with the acceleration limit
 void step(Crosshead& crosshead, double dt);
 [[nodiscard]] bool moves(const Crosshead& crosshead);
-
-using Nanoseconds = std::int64_t;  // since the emulator's start
-
-[[nodiscard]] constexpr double seconds(Nanoseconds time) {
-  return static_cast<double>(time) * 1e-9;
-}
-[[nodiscard]] constexpr Nanoseconds nanoseconds(double time) {
-  return static_cast<Nanoseconds>(time * 1e9 + (time < 0.0 ? -0.5 : 0.5));
-}
 
 // The layout of the reply to `p`: the guide lists its codes only.
 enum class StatusLayout { compact, spaced, none };   // "SLUL", "S L UL", no reply
@@ -93,8 +87,6 @@ struct Stand {
   double greatest_force = 0;  // N, so far
 };
 
-inline constexpr std::int64_t rate = 7000;  // gauge samples and mechanical steps per second
-
 [[nodiscard]] Stand make_stand(const StandSettings& settings);
 
 // Switches the stand off and on: settings, zeros and limits are lost, the crosshead does not move.
@@ -113,5 +105,44 @@ void advance(Stand& stand, Nanoseconds time);
 
 [[nodiscard]] double travel(const Stand& stand);  // m, true travel from the zero
 [[nodiscard]] double depth(const Stand& stand);   // m, true depth below the surface
+
+struct Mark10Settings {
+  StandSettings stand = {};
+  std::vector<Fault> faults = {};
+  Clock clock = Clock::real;
+  Nanoseconds tick = 20'000'000;  // lockstep: requests are answered at multiples of it
+  // Lockstep: the readings in a reply are older than the reply, by `latency` and a random time of
+  // up to `jitter`.
+  Nanoseconds latency = 0;
+  Nanoseconds jitter = 0;
+  int baud = 115200;
+};
+
+class Mark10 : public SerialDevice {
+ public:
+  Mark10(const Mark10Settings& settings, Log& log);
+
+  void pass(Nanoseconds now) override;
+  void take(char byte, Rate rate_of_other_side) override;
+
+  [[nodiscard]] const Stand& stand() const { return stand_; }
+  [[nodiscard]] std::int64_t requests() const { return requests_; }
+  [[nodiscard]] std::string summary() const override;
+
+ private:
+  void go_to(Nanoseconds time, std::int64_t requests);
+  void advance_to(Nanoseconds time) override;
+  void begin(const Fault& fault) override;
+  void log_row(const char* kind, const std::string& text) override;
+  [[nodiscard]] Nanoseconds age_of_reading();
+  [[nodiscard]] std::string reply_to(char byte);
+
+  Mark10Settings settings_;
+  Stand stand_;
+  Random delays_;
+  std::int64_t requests_ = 0;
+  std::string command_ = {};  // bytes of an incomplete command, for the log
+  std::string frozen_ = {};   // the reply that the fault `freeze` repeats
+};
 
 }  // namespace emulator

@@ -1,5 +1,5 @@
 // Rows in contact and free rows are told apart by the pull-off; then all unknowns by Ceres.
-#include "fit/adhesive.h"
+#include "fit/contact_model.h"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,8 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "fit/ceres_fit.h"
-#include "fit/loading_part.h"
-#include "fit/residual_tests.h"
-#include "fit/step_origin.h"
+#include "fit/parts.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {
@@ -182,12 +181,8 @@ class AdhesiveFit {
     const auto least = std::min_element(force.begin(), force.end());
     const auto at = static_cast<std::size_t>(least - force.begin());
     const bool zeroed = test_.baseline == ContactTest::BaselineChoice::none;
-    std::vector<double> last(
-        force.end() - static_cast<std::ptrdiff_t>(std::max<std::size_t>(3, force.size() / 10)),
-        force.end());
-    std::nth_element(last.begin(), last.begin() + static_cast<std::ptrdiff_t>(last.size() / 2),
-                     last.end());
-    level_ = zeroed ? 0.0 : last[last.size() / 2];
+    const auto some = static_cast<std::ptrdiff_t>(std::max<std::size_t>(3, force.size() / 10));
+    level_ = zeroed ? 0.0 : median({force.end() - some, force.end()});
     pull_ = level_ - *least;
     std::size_t end = at;
     while (end < force.size() && force[end] < level_ - 0.3 * pull_) ++end;

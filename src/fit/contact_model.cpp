@@ -13,7 +13,7 @@
 #include "contact/layer.h"
 #include "fit/ceres_fit.h"
 #include "fit/contact_search.h"
-#include "fit/residual_tests.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {

@@ -1,5 +1,5 @@
 // The shapes of the search are the logarithm of tau and the logit of beta.
-#include "fit/fractional.h"
+#include "fit/prony.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "fit/ceres_fit.h"
-#include "fit/separable.h"
 
 namespace palpate::fit {
 namespace {

@@ -12,7 +12,6 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "fit/ceres_fit.h"
-#include "fit/separable.h"
 
 namespace palpate::fit {
 namespace {

@@ -14,9 +14,8 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "fit/ceres_fit.h"
-#include "fit/loading_part.h"
-#include "fit/residual_tests.h"
-#include "fit/separable.h"
+#include "fit/parts.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {

@@ -1,5 +1,5 @@
 // The history is linear between its knots, and the integrals of E(t) over each are in closed form.
-#include "fit/viscous_contact.h"
+#include "fit/contact_model.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,9 +12,7 @@
 #include "base/units.h"
 #include "fit/ceres_fit.h"
 #include "fit/contact_search.h"
-#include "fit/residual_tests.h"
-#include "fit/separable.h"
-#include "fit/tip.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {

@@ -12,12 +12,9 @@
 #include "base/numerics.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
-#include "fit/correlated.h"
-#include "fit/residual_tests.h"
-#include "fit/step_origin.h"
-#include "identify/box_errors.h"
+#include "fit/parts.h"
+#include "fit/residuals.h"
 #include "identify/box_search.h"
-#include "identify/fixed_model.h"
 #include "identify/prepare_curve.h"
 #include "identify/scenario_curve.h"
 #include "identify/tables.h"
@@ -30,15 +27,14 @@ constexpr double edge = 1e-6;  // of the box; a best fit this close to a bound c
 constexpr double high_correlation = 0.95;
 constexpr double disagreement = 0.2;  // of an interval's half width
 
+Eigen::Index as_signed(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
 double median_spacing(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   std::vector<double> steps;
   for (std::size_t i = 1; i < x.size(); ++i)
     if (x[i] > x[i - 1]) steps.push_back(x[i] - x[i - 1]);
-  if (steps.empty()) return 0.0;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                   steps.end());
-  return steps[steps.size() / 2];
+  return steps.empty() ? 0.0 : fit::median(std::move(steps));
 }
 
 // One pair of data and scenario within a search.
@@ -303,24 +299,29 @@ class Search {
     return values;
   }
 
+  // J^T (F w) of the rows of a pair, and sum (F w)^2, where F is its curve and w the weights.
+  [[nodiscard]] std::pair<Eigen::VectorXd, double> changes_of(const Part& part) const {
+    const std::size_t n = unknowns_.size();
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(as_signed(n));
+    double size = 1e-300;
+    for (std::size_t row = part.from; row < part.to; ++row) {
+      const double weighted = found_.model[row] * weights_[row];
+      along += weighted * Eigen::Map<const Eigen::VectorXd>(&best_.jacobian[row * n], as_signed(n));
+      size += weighted * weighted;
+    }
+    return {along, size};
+  }
+
   // Whether the pairs change by more than the stated errors of their models along the direction of
   // unknowns i and j that changes them least: a_k = sum J F w / sum (F w)^2, the relative change of
   // the curve of pair k as a whole. One pair has such a direction always.
   //                                                                     docs/theory.md [told_apart]
   [[nodiscard]] bool told_apart(std::size_t i, std::size_t j) const {
-    const std::size_t n = unknowns_.size();
     double ii = 0.0, ij = 0.0, jj = 0.0;
     std::vector<std::array<double, 2>> changes;
     for (const Part& part : parts_) {
-      std::array<double, 2> change{};
-      double size = 0.0;
-      for (std::size_t row = part.from; row < part.to; ++row) {
-        const double weighted = found_.model[row] * weights_[row];
-        change[0] += best_.jacobian[row * n + i] * weighted;
-        change[1] += best_.jacobian[row * n + j] * weighted;
-        size += weighted * weighted;
-      }
-      for (double& each : change) each /= std::max(size, 1e-300);
+      const auto [along, size] = changes_of(part);
+      const std::array change{along[as_signed(i)] / size, along[as_signed(j)] / size};
       ii += change[0] * change[0];
       ij += change[0] * change[1];
       jj += change[1] * change[1];
@@ -591,18 +592,11 @@ class Search {
                                  all.begin() + static_cast<std::ptrdiff_t>(part.to));
     };
     found.model = slice(found_.model);
-    const auto n = static_cast<double>(found.x.size());
-    double mean = 0.0;
-    for (const double y : found.measured) mean += y / n;
     double squares = 0.0;
-    double total = 0.0;
-    for (std::size_t i = 0; i < found.x.size(); ++i) {
-      const double residual = found.measured[i] - found.model[i];
-      squares += residual * residual;
-      total += (found.measured[i] - mean) * (found.measured[i] - mean);
-    }
-    found.rmse = std::sqrt(squares / n);
-    found.r2 = 1.0 - squares / total;
+    for (std::size_t i = 0; i < found.x.size(); ++i)
+      squares += (found.measured[i] - found.model[i]) * (found.measured[i] - found.model[i]);
+    found.rmse = std::sqrt(squares / static_cast<double>(found.x.size()));
+    found.r2 = fit::r_squared(found.measured, squares);
     found.unknowns = part.own(std::span<const Identified>(found_.unknowns));
     const std::vector<double> values = estimates_of(part);
     if (!part.body.text.empty()) note(part, part.body.text);
@@ -624,23 +618,18 @@ class Search {
   //                                                                  docs/theory.md [model_error]
   void widen_by_model() {
     const std::size_t n = unknowns_.size();
+    const Eigen::Map<const Eigen::MatrixXd> of_one(errors_.of_one.data(), as_signed(n),
+                                                   as_signed(n));
     std::vector<double> moved(n, 0.0);  // by every pair, whose errors may differ in sign
     std::vector<double> combined(found_.combinations.size(), 0.0);
     for (const Part& part : parts_) {
       const double error = part.found.predicted_error.value_or(0.0) + std::abs(part.body.change);
-      std::vector<double> product(n, 0.0);
-      for (std::size_t row = part.from; row < part.to; ++row)
-        for (std::size_t i = 0; i < n; ++i)
-          product[i] += best_.jacobian[row * n + i] * error * found_.model[row] * weights_[row];
-      std::vector<double> change(n, 0.0);
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) change[i] += errors_.of_one[i * n + j] * product[j];
-        moved[i] += std::abs(change[i]);
-      }
+      const Eigen::VectorXd change = error * of_one * changes_of(part).first;
+      for (std::size_t i = 0; i < n; ++i) moved[i] += std::abs(change[as_signed(i)]);
       for (std::size_t k = 0; k < combined.size(); ++k) {
-        double along = 0.0;
-        for (std::size_t i = 0; i < n; ++i) along += found_.combinations[k].gradient[i] * change[i];
-        combined[k] += std::abs(along);
+        const Eigen::Map<const Eigen::VectorXd> gradient(found_.combinations[k].gradient.data(),
+                                                         as_signed(n));
+        combined[k] += std::abs(gradient.dot(change));
       }
     }
     for (std::size_t k = 0; k < combined.size(); ++k) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "identify/box_search.h"
 #include "identify/scenario_curve.h"
 
 namespace palpate::identify {

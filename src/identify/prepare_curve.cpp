@@ -6,11 +6,9 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "fit/loading_part.h"
+#include "fit/parts.h"
 #include "fit/regression.h"
-#include "fit/step_origin.h"
 #include "identify/box_search.h"
-#include "identify/fixed_model.h"
 #include "identify/scenario_curve.h"
 
 namespace palpate::identify {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "fit/residual_tests.h"
+#include "fit/residuals.h"
 #include "scenario/integrators.h"
 
 namespace palpate::identify {

@@ -4,7 +4,6 @@
 
 #include "contact/passivity.h"
 #include "device/safety.h"
-#include "live/guide.h"
 #include "live/loop.h"
 #include "run/contact_row.h"
 

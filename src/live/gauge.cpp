@@ -8,7 +8,6 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "device/safety.h"
-#include "live/guide.h"
 #include "live/loop.h"
 #include "live/touch.h"
 #include "run/contact_row.h"
@@ -32,24 +31,6 @@ constexpr double moved = 0.02;        // of the deepest travel: less is no motio
 constexpr double known = 5.0;         // readings at rest that tell their mean and noise
 constexpr double fall_time = 0.5;     // s below the force at rest, which no noise stays for
 constexpr double silent = 5.0;        // s without a press, after which what it waits for is said
-
-// Mean and standard deviation of readings; those of a long time, about the last hundred.
-class Readings {
- public:
-  double count = 0.0;
-  void add(double force) {
-    constexpr double most = 100.0;
-    count = std::min(count + 1.0, most);
-    const double change = force - mean_;
-    mean_ += change / count;
-    variance_ += (change * (force - mean_) - variance_) / count;
-  }
-  [[nodiscard]] double mean() const { return mean_; }
-  [[nodiscard]] double deviation() const { return std::sqrt(std::max(0.0, variance_)); }
-
- private:
-  double mean_ = 0.0, variance_ = 0.0;
-};
 
 class GaugeLoop {
  public:

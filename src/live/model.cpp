@@ -1,5 +1,5 @@
 // Follows the finger along straight lines between readings.
-#include "live/model.h"
+#include "live/loop.h"
 
 #include "base/stopwatch.h"
 #include "mechanics/half_space_contact.h"

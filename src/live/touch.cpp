@@ -9,6 +9,14 @@
 
 namespace palpate::live {
 
+void Readings::add(double force) {
+  constexpr double most = 100.0;
+  count = std::min(count + 1.0, most);
+  const double change = force - mean_;
+  mean_ += change / count;
+  variance_ = std::max(0.0, variance_ + (change * (force - mean_) - variance_) / count);
+}
+
 void StraightLine::add(double x, double y) {
   if (count_ == 0.0) first_ = x;
   const double way = x - first_;

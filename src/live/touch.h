@@ -1,12 +1,25 @@
 // Finds the surface from the heights and forces that a stand or a gauge measures in a slow press.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "contact/relaxation.h"
 
 namespace palpate::live {
+
+// Mean and standard deviation of readings; those of a long time, about the last hundred.
+class Readings {
+ public:
+  double count = 0.0;
+  void add(double force);
+  [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] double deviation() const { return std::sqrt(variance_); }
+
+ private:
+  double mean_ = 0.0, variance_ = 0.0;
+};
 
 // A straight line through points by least squares. Allocates nothing.
 class StraightLine {

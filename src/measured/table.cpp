@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
-#include "measured/text.h"
 #include "measured/unit.h"
 
 namespace palpate::measured {

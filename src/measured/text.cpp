@@ -1,5 +1,4 @@
 // Decodes the encodings and line ends that instruments, spreadsheets and old Macs write.
-#include "measured/text.h"
 
 #include <algorithm>
 #include <array>

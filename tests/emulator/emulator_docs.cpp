@@ -11,7 +11,7 @@
 #include "emulator/arm.h"
 #include "emulator/files.h"
 #include "emulator/line_gauge.h"
-#include "emulator/mark10.h"
+#include "emulator/stand.h"
 #include "temporary_folder.h"
 
 namespace emulator {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
+#include "identify/box_search.h"
 #include "identify/givens.h"
 #include "identify_scenes.h"
 #include "record/csv.h"

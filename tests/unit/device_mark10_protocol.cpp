@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "device/line_buffer.h"
+#include "device/serial_port.h"
 
 namespace palpate::device::mark10 {
 namespace {

@@ -1,5 +1,5 @@
 // The programme as guidance, and the surface that is felt.
-#include "live/guide.h"
+#include "live/loop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The model beside a device is the model of `run`, and closed forms allocate nothing.
-#include "live/model.h"
+#include "live/loop.h"
 
 #include <gtest/gtest.h>
 
