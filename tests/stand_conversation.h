@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/mark10.h"
+#include "emulator/stand.h"
 
 namespace emulator::test {
 

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "device/link_text.h"
-#include "fit/model.h"
+#include "device/link.h"
+#include "fit/regression.h"
 #include "report/export.h"
 #include "scenario/starters.h"
 

@@ -53,7 +53,7 @@ struct Explain {
 // The layout of a measured file: --x, --x-unit, --skip ...
 using DataOptions = measured::DataLayout;
 
-// Models of `fit` that are not in the table of fit/model.h and have further options.
+// Models of `fit` that are not in the table of fit/regression.h and have further options.
 inline constexpr std::array further_models{
     "hertz",           "layer",       "jkr",         "dmt",
     "adhesive",        "prony",       "prony_creep", "modulus",

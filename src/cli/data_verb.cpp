@@ -11,7 +11,7 @@
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "fit/contact_model.h"
-#include "fit/loading_part.h"
+#include "fit/parts.h"
 #include "fit/uniaxial.h"
 #include "measured/columns.h"
 #include "measured/measured.h"

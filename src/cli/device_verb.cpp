@@ -13,7 +13,6 @@
 #include "cli/verbs.h"
 #include "device/health.h"
 #include "device/link.h"
-#include "device/link_text.h"
 
 namespace palpate::cli {
 namespace {

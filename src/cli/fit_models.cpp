@@ -12,13 +12,10 @@
 #include "base/units.h"
 #include "cli/arguments.h"
 #include "fit/contact_model.h"
-#include "fit/contact_warnings.h"
-#include "fit/fractional.h"
-#include "fit/loading_part.h"
+#include "fit/parts.h"
 #include "fit/prony.h"
-#include "fit/step_origin.h"
+#include "fit/residuals.h"
 #include "fit/uniaxial.h"
-#include "fit/viscous_contact.h"
 #include "measured/measured.h"
 
 namespace palpate::cli {
@@ -502,7 +499,6 @@ fit::Fit solid_after_ramp(std::span<const double> x, std::span<const double> y,
   fit::Fit result = fit::fit_prony(x, y, series, options);
   fit::Estimate& jump = result.parameters[1];
   jump.name = "y_0";
-  jump.initial += result.parameters[0].initial;
   jump.estimate += result.parameters[0].estimate;
   if (const std::vector<double>& v = result.covariance; v.size() == 9) {
     const double t = (jump.ci95_high - jump.ci95_low) / (2.0 * jump.std_error);

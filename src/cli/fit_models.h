@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cli/arguments.h"
-#include "fit/adhesive.h"
 #include "fit/contact_model.h"
 #include "fit/regression.h"
 #include "fit/uniaxial.h"

@@ -15,7 +15,7 @@
 #include "cli/table_text.h"
 #include "cli/talk.h"
 #include "cli/verbs.h"
-#include "fit/fit_table.h"
+#include "fit/case_fits.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
 #include "record/table.h"

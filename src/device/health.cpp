@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "device/events.h"
 
 namespace palpate::device {
 namespace {
@@ -130,6 +129,25 @@ std::vector<std::string> health_warnings(const Health& health) {
   warn(health.rules.stale,
        "were stale, so that the safety rules took the force back or halted the stand; give the run "
        "a free processor and `--realtime`");
+  return sentences;
+}
+
+std::vector<std::string> event_sentences(const Events& events) {
+  std::vector<std::string> sentences;
+  if (events.port == Events::Port::lost)
+    sentences.emplace_back(
+        "the service's events port closed; from then on a brake was detected from the arm's state "
+        "only");
+  for (std::size_t i = 0; i < event_kinds; ++i) {
+    const auto event = static_cast<Event>(i);
+    const std::uint64_t count = events.counts[i];
+    if (count == 0 || event == Event::other) continue;
+    if (event == Event::busy)
+      sentences.emplace_back("another session uses the arm (`device-busy`); end it");
+    else
+      sentences.push_back("the service reported `" + std::string(event_text(event)) + "`" +
+                          (count > 1 ? ", " + std::to_string(count) + " times" : ""));
+  }
   return sentences;
 }
 

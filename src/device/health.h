@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "device/arm_safety.h"
 #include "device/safety.h"
 #include "device/sample.h"
 
@@ -63,6 +62,10 @@ struct Health {
 // Sentences for a run in which more than 1 % of the frames had no new sample, or a sample that was
 // too old for the safety rules.
 [[nodiscard]] std::vector<std::string> health_warnings(const Health& health);
+
+// Sentences for people on an events port that closed and on all events that were counted, except
+// `other`.
+[[nodiscard]] std::vector<std::string> event_sentences(const Events& events);
 
 // The text of device_health.json: identity, limits, traffic and the statistics above.
 [[nodiscard]] std::string health_json(const Identity& identity, const Limits& limits,

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "base/error.h"
-#include "device/events.h"
 
 namespace palpate::device {
 namespace {

@@ -8,9 +8,8 @@
 #include <string>
 
 #include "device/clock.h"
-#include "device/host.h"
 #include "device/inverse3_protocol.h"
-#include "device/link_text.h"
+#include "device/link.h"
 #include "device/sample.h"
 #include "device/websocket.h"
 

@@ -1,24 +1,120 @@
-// The link to any gauge that sends lines, or answers with lines, on a serial line. It only reads.
+// The link to any gauge that sends lines, or answers with lines, on a serial line, and the pattern
+// of these lines, such as `{time}, {force} {force_unit}`. It only reads.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/index.h"
 #include "device/clock.h"
-#include "device/line_buffer.h"
-#include "device/line_pattern.h"
-#include "device/line_settings.h"
-#include "device/link_text.h"
+#include "device/link.h"
 #include "device/sample.h"
 #include "device/serial_port.h"
 
 namespace palpate::device {
 
+enum class Measure : std::uint8_t { force, travel, time };
+inline constexpr std::size_t measures = as_index(Measure::time) + 1;
+
+// What one line says: numbers as they are written, and units as words (empty if there is none).
+struct LineWords {
+  std::array<std::optional<double>, measures> number{};
+  std::array<std::string_view, measures> unit{};
+  bool negative = false;  // of the force, by its own sign
+
+  [[nodiscard]] const std::optional<double>& of(Measure measure) const {
+    return number[as_index(measure)];
+  }
+};
+
+// A pattern is text in which `{force}`, `{travel}` and `{time}` stand for numbers, `{force_unit}`,
+// `{travel_unit}` and `{time_unit}` for words of letters, and `{any}` for as little of any text as
+// possible. `{force_sign}` is a digit or sign apart from the number: `0`, `+` or a space for
+// positive forces, `1` or `-` for negative ones. A space stands for any number of spaces and tabs,
+// also none; `{{` and `}}` for braces; everything else for itself. The whole line has to match.
+class LinePattern {
+ public:
+  enum class Decimal { point, comma };
+
+  // Throws std::invalid_argument with a sentence that starts with "wants ..." if there is no
+  // `{force}`, if a name is unknown or given twice, or if two parts cannot be told apart.
+  explicit LinePattern(std::string_view text, Decimal decimal = Decimal::point);
+
+  // A number has an optional sign (which spaces may follow), up to 15 digits with at most one
+  // decimal sign, and an optional exponent. No digit, sign or decimal sign may touch it, so that
+  // the rest of a spoilt number is not read as one. Allocates nothing and never throws.
+  [[nodiscard]] std::optional<LineWords> match(std::string_view line) const;
+
+  // What a line that does not match lacks, as "`{force}` was expected at `abc`". Allocates.
+  [[nodiscard]] std::string why_not(std::string_view line) const;
+
+  [[nodiscard]] bool has_number(Measure measure) const { return has_number_[as_index(measure)]; }
+  [[nodiscard]] bool has_unit(Measure measure) const { return has_unit_[as_index(measure)]; }
+
+ private:
+  struct Part {
+    enum class Kind { text, space, any, sign, number, unit };
+    Kind kind = Kind::text;
+    Measure measure = Measure::force;
+    std::string text = {};  // of the pattern
+  };
+  struct Furthest {
+    std::size_t part = 0;
+    std::size_t at = 0;
+  };
+
+  void add(const Part& part);
+  void add_name(std::string_view name);
+  std::optional<LineWords> match(std::string_view line, Furthest& furthest) const;
+  [[nodiscard]] std::optional<std::size_t> take(std::size_t part, std::string_view line,
+                                                std::size_t at, LineWords& words) const;
+  [[nodiscard]] std::optional<std::size_t> take_number(const Part& part, std::string_view line,
+                                                       std::size_t at, LineWords& words) const;
+
+  char decimal_;
+  std::vector<Part> parts_;
+  std::array<bool, measures> has_number_{};
+  std::array<bool, measures> has_unit_{};
+  bool has_sign_ = false;
+};
+
+// N, m or s per unit that a line may name; nothing for other words. A mass means its weight:
+// balances and most sketches for load cells show grams.
+[[nodiscard]] std::optional<double> unit_of(Measure measure, std::string_view word);
+
+// The known units of a measure, as "`N`, `mN` or `kN`".
+[[nodiscard]] std::string known_units(Measure measure);
+
 class Tap;
+
+// The settings of a gauge on a serial line: a TOML file.
+struct LineSettings {
+  LineFormat line = {.baud = 9600};
+  std::string pattern = {};
+  LinePattern::Decimal decimal = LinePattern::Decimal::point;
+  // Words of LinePattern, for what the pattern takes no unit from.
+  std::string force_unit = {};
+  std::string travel_unit = {};
+  std::string time_unit = {};
+  double force_zero = 0.0;   // as written in the lines, subtracted first
+  double force_scale = 1.0;  // negative if the lines show compression as negative
+  enum class Towards { down, up };
+  Towards travel = Towards::down;  // where the travel in the lines increases
+  std::string poll = {};           // sent for every reading; empty: the gauge sends by itself
+  std::string start = {};          // sent after the port was opened
+  std::string stop = {};           // sent before the port is closed
+  double rate = 10.0;              // readings per second, that are sent or asked for
+  double wait = 3.0;               // s, for the first line
+  std::optional<double> start_force = {};  // N, with which a run without travel begins
+};
+
+// Reads the file. Throws InputError with the place of what is wrong, also of a pattern or a unit.
+[[nodiscard]] LineSettings read_line_settings(const std::string& path);
 
 class LineGauge {
  public:

@@ -1,12 +1,16 @@
-// The kinds of links, each opened by its type of address.
+// LINK texts: the word of a kind, a colon, and the address; and links, each opened by its address.
 #include "device/link.h"
 
+#include <array>
+#include <charconv>
+#include <optional>
 #include <utility>
 #include <variant>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "device/inverse3.h"
 #include "device/line_gauge.h"
-#include "device/link_text.h"
 #include "device/mark10.h"
 #include "device/recording.h"
 
@@ -85,5 +89,127 @@ std::vector<std::string> Link::heard() const {
 bool Link::stop() {
   return link_->with([](auto& link) { return link.stop(); });
 }
+
+namespace {
+
+struct LinkKind {
+  const char* word;                                                  // before the colon
+  const char* form;                                                  // for help texts
+  const char* example;                                               // for errors
+  Address (*address)(std::string_view text, std::string_view rest);  // `rest` follows the colon
+};
+Address stand_address(std::string_view text, std::string_view rest);
+Address gauge_address(std::string_view text, std::string_view rest);
+Address arm_address(std::string_view text, std::string_view rest);
+Address recording_address(std::string_view text, std::string_view rest);
+
+// In the order of Address.
+constexpr std::array kinds{
+    LinkKind{"mark10", "mark10:PORT", "mark10:/dev/ttyUSB0", stand_address},
+    LinkKind{"serial", "serial:PORT,SETTINGS.toml", "serial:/dev/ttyACM0,gauge.toml",
+             gauge_address},
+    LinkKind{"inverse3", "inverse3:HOST:PORT[:EVENTS][/ID]", "inverse3:localhost:10001",
+             arm_address},
+    LinkKind{"replay", "replay:FILE.csv", "replay:FILE.csv", recording_address}};
+static_assert(kinds.size() == std::variant_size_v<Address>, "a link lacks its text");
+
+// "A, B or C", with the member `text` of every kind.
+std::string listed(const char* LinkKind::*text, const std::string& quote) {
+  std::string list;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == kinds.size() ? " or " : ", ") + quote + kinds[i].*text + quote;
+  return list;
+}
+
+[[noreturn]] void refuse(std::string_view text, const std::string& why) {
+  throw InputError({}, "palpate: the link `" + std::string(text) + "` " + why + "; write it as " +
+                           listed(&LinkKind::example, "`"));
+}
+
+std::optional<int> port_number(std::string_view text) {
+  int port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (port < 1 || port > 65535) return std::nullopt;
+  return port;
+}
+
+int wanted_port(std::string_view text, std::string_view word, const char* what) {
+  const auto port = port_number(word);
+  if (!port) refuse(text, what);
+  return *port;
+}
+
+Address stand_address(std::string_view text, std::string_view rest) {
+  if (rest.empty()) refuse(text, "names no serial port");
+  return StandAddress{std::string(rest)};
+}
+
+// The file of the settings follows the last comma, which a port's path may have as well.
+Address gauge_address(std::string_view text, std::string_view rest) {
+  const auto comma = rest.rfind(',');
+  if (comma == std::string_view::npos || comma + 1 == rest.size())
+    refuse(text, "names no file of settings after a comma");
+  if (comma == 0) refuse(text, "names no serial port");
+  return GaugeAddress{std::string(rest.substr(0, comma)), std::string(rest.substr(comma + 1))};
+}
+
+Address recording_address(std::string_view text, std::string_view rest) {
+  if (rest.empty()) refuse(text, "names no file");
+  return RecordingAddress{std::string(rest)};
+}
+
+// HOST:PORT[:EVENTS][/ID]; a host that contains colons (IPv6) is written in brackets.
+Address arm_address(std::string_view text, std::string_view rest) {
+  const bool bracketed = rest.starts_with('[');
+  if (bracketed) rest.remove_prefix(1);
+  const std::string_view host = rest.substr(0, rest.find(bracketed ? ']' : ':'));
+  std::string_view ports = rest.substr(host.size());
+  if (bracketed && ports.starts_with(']')) ports.remove_prefix(1);
+  if (!ports.starts_with(':')) refuse(text, "lacks a port");
+  ports.remove_prefix(1);
+  const auto slash = ports.find('/');
+  std::string id;
+  if (slash != std::string_view::npos) {
+    id = ports.substr(slash + 1);
+    ports = ports.substr(0, slash);
+    if (id.empty()) refuse(text, "wants the id of an arm after `/`");
+  }
+  if (host.empty()) refuse(text, "lacks a host");
+  ArmAddress address{.host = std::string(host), .id = id};
+  const auto colon = ports.find(':');
+  address.port = wanted_port(text, ports.substr(0, colon), "wants a port from 1 to 65535");
+  if (colon == std::string_view::npos) return address;
+  const std::string_view events = ports.substr(colon + 1);
+  address.events = std::nullopt;
+  if (events != "none")
+    address.events =
+        wanted_port(text, events, "wants, for the events, a port from 1 to 65535 or `none`");
+  return address;
+}
+
+}  // namespace
+
+Address parse_link(std::string_view text) {
+  const auto colon = text.find(':');
+  const std::string word(text.substr(0, colon));
+  const std::string_view rest =
+      colon == std::string_view::npos ? std::string_view() : text.substr(colon + 1);
+  if (text.find('\0') != std::string_view::npos) refuse(word, "holds a zero byte");
+  std::vector<std::string> words;
+  for (const LinkKind& kind : kinds) {
+    if (word == kind.word) return kind.address(text, rest);
+    words.emplace_back(kind.word);
+  }
+  const auto near = nearest(word, words);
+  refuse(text, "begins with no known kind" + (near ? ", did you mean `" + *near + ":`" : ""));
+}
+
+bool only_reads(const Address& address) {
+  return std::holds_alternative<GaugeAddress>(address) ||
+         std::holds_alternative<RecordingAddress>(address);
+}
+
+std::string link_forms() { return listed(&LinkKind::form, ""); }
 
 }  // namespace palpate::device

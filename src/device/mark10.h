@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "device/clock.h"
-#include "device/line_buffer.h"
 #include "device/mark10_protocol.h"
 #include "device/sample.h"
 #include "device/serial_port.h"

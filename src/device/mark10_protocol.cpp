@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "device/line_buffer.h"
+#include "device/serial_port.h"
 
 namespace palpate::device::mark10 {
 namespace {
@@ -149,8 +149,6 @@ std::optional<Settings> parse_settings(std::string_view line) {
 
 std::optional<Status> parse_status(std::string_view line) {
   Status status;
-  bool upper_limit = false;
-  bool lower_limit = false;
   bool any = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
@@ -159,7 +157,6 @@ std::optional<Status> parse_status(std::string_view line) {
     // `UL` and `DL` are limits only at the end of a word.
     const bool ends = rest.size() == 2 || (rest.size() > 2 && !is_letter(rest[2]));
     if (ends && (rest.starts_with("UL") || rest.starts_with("DL"))) {
-      (c == 'U' ? upper_limit : lower_limit) = true;
       ++i;
     } else if (c == 'U') {
       status.moving = Status::Moving::up;
@@ -174,11 +171,7 @@ std::optional<Status> parse_status(std::string_view line) {
     }
     any = true;
   }
-  if (!any) return std::nullopt;
-  if (status.moving == Status::Moving::unknown) return status;
-  status.at_upper_limit = upper_limit;
-  status.at_lower_limit = lower_limit;
-  return status;
+  return any ? std::optional(status) : std::nullopt;
 }
 
 PairReader::Step PairReader::take(std::string_view line) {

@@ -52,13 +52,11 @@ struct Settings {
 
 // The reply to `p`. The guide lists its codes but not their layout, so that any order and any
 // separators are accepted. Without U, D or S, a `UL` or `DL` may mean a limit, or motion in limit
-// mode: `moving` then stays unknown and neither limit is set.
+// mode: `moving` then stays unknown.
 struct Status {
   enum class Moving { unknown, up, down, stopped };
   Moving moving = Moving::unknown;
   char mode = '?';  // C cycle, L limit, M manual
-  bool at_upper_limit = false;
-  bool at_lower_limit = false;
 };
 [[nodiscard]] std::optional<Status> parse_status(std::string_view line);
 

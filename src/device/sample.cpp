@@ -1,4 +1,4 @@
-// The sentences for faults, and the histogram of times.
+// The words for faults and events, and the histogram of times.
 #include "device/sample.h"
 
 namespace palpate::device {
@@ -32,6 +32,44 @@ std::string_view fault_text(Fault fault) {
     case Fault::reframed: return "the service now turns or scales the arm's coordinates";
   }
   return "unknown";
+}
+
+std::string_view event_text(Event event) {
+  switch (event) {
+    case Event::other: return "other";
+    case Event::garbage: return "garbage";
+    case Event::other_device: return "other_device";
+    case Event::brake: return "ebrake_triggered";
+    case Event::released: return "ebrake_released";
+    case Event::stage_raised: return "fod_stage_raised";
+    case Event::stage_lowered: return "fod_stage_lowered";
+    case Event::stall: return "stall_detected";
+    case Event::ceiling: return "stability_ceiling";
+    case Event::safety: return "other_safety";
+    case Event::notice: return "other_safety_notice";
+    case Event::disconnected: return "device-disconnected";
+    case Event::busy: return "device-busy";
+  }
+  return "unknown";
+}
+
+Fault fault_of(Event event) {
+  switch (event) {
+    case Event::brake:
+    case Event::stage_raised:
+    case Event::safety: return Fault::brake;
+    case Event::stall: return Fault::stalled;
+    case Event::ceiling: return Fault::unstable;
+    case Event::disconnected: return Fault::hung_up;
+    case Event::other:
+    case Event::garbage:
+    case Event::other_device:
+    case Event::released:
+    case Event::stage_lowered:
+    case Event::notice:
+    case Event::busy: break;
+  }
+  return Fault::none;
 }
 
 void LatencyHistogram::add(double time) {

@@ -101,7 +101,7 @@ struct Limits {
   std::optional<double> start_force = {};
 };
 
-// Messages that an arm's service sends unasked: device/events.h.
+// Messages that an arm's service sends unasked.
 enum class Event : std::uint8_t {
   other,          // neither about safety nor about the connection
   garbage,        // not a JSON object
@@ -118,6 +118,12 @@ enum class Event : std::uint8_t {
   busy,           // another session uses the arm
 };
 inline constexpr std::size_t event_kinds = as_index(Event::busy) + 1;
+// The event's name in device_health.json: the service's own spelling if it has one.
+[[nodiscard]] std::string_view event_text(Event event);
+// The fault that the next sample reports after `event`. After hung_up the arm stays lost; brake,
+// stalled and unstable trip the link; none means that the event is only counted.
+[[nodiscard]] Fault fault_of(Event event);
+
 struct Events {
   enum class Port : std::uint8_t {
     none,     // links of this kind have no events port

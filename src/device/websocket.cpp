@@ -7,6 +7,8 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include <arpa/inet.h>
+#include <netdb.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -16,12 +18,12 @@
 #include <bitset>
 #include <chrono>
 #include <cstddef>
-#include <vector>
+#include <future>
+#include <thread>
 
 #include "base/error.h"
 #include "base/index.h"
 #include "device/clock.h"
-#include "device/host.h"
 #include "device/tap.h"
 #include "device/websocket.h"
 
@@ -117,12 +119,56 @@ void ask_for_signs_of_life(Socket& socket) {
     (void)::setsockopt(socket.native_handle(), level, name, &value, sizeof value);
 }
 
+bool is_address(const std::string& name) {
+  std::array<unsigned char, sizeof(in6_addr)> bytes{};
+  return ::inet_pton(AF_INET, name.c_str(), bytes.data()) == 1 ||
+         ::inet_pton(AF_INET6, name.c_str(), bytes.data()) == 1;
+}
+
+// Empty if the host is unknown.
+std::vector<std::string> addresses_of(const std::string& name) {
+  addrinfo hints{};
+  hints.ai_family = AF_UNSPEC;
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* first = nullptr;
+  if (::getaddrinfo(name.c_str(), nullptr, &hints, &first) != 0) return {};
+  std::vector<std::string> addresses;
+  for (const addrinfo* at = first; at != nullptr; at = at->ai_next) {
+    std::array<char, NI_MAXHOST> text{};
+    if (::getnameinfo(at->ai_addr, at->ai_addrlen, text.data(), text.size(), nullptr, 0,
+                      NI_NUMERICHOST) == 0)
+      addresses.emplace_back(text.data());
+  }
+  ::freeaddrinfo(first);
+  return addresses;
+}
+
 std::chrono::steady_clock::duration duration(double seconds) {
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
       std::chrono::duration<double>(seconds));
 }
 
 }  // namespace
+
+// getaddrinfo() has no timeout and cannot be cancelled, so that a separate thread calls it.
+Host look_up(const std::string& name, double until) {
+  if (is_address(name)) return {name, {name}};
+  std::promise<std::vector<std::string>> promise;
+  auto found = promise.get_future();
+  std::thread([name, promise = std::move(promise)]() mutable {
+    promise.set_value(addresses_of(name));
+  }).detach();
+  const std::chrono::duration<double> left(std::max(0.0, until - wire_time()));
+  if (found.wait_for(left) != std::future_status::ready)
+    throw LinkError("palpate: the host `" + name +
+                    "` could not be looked up in time, the system's name service does not answer; "
+                    "give the host's address in numbers");
+  std::vector<std::string> addresses = found.get();
+  if (addresses.empty())
+    throw LinkError("palpate: the host `" + name +
+                    "` is not known; give its address, or `localhost`");
+  return {name, std::move(addresses)};
+}
 
 struct WebSocket::Implementation {
   static constexpr std::size_t portion = 4096;  // bytes per read operation

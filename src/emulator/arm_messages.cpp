@@ -1,6 +1,6 @@
 // JSON of the Inverse service, from its pages 3.1 and 3.5: websocket-protocol, control-commands,
 // http, events. This is the only file of the emulator that uses nlohmann's JSON.
-#include "emulator/arm_messages.h"
+#include "emulator/arm.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

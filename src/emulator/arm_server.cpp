@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "base/error.h"
-#include "emulator/arm_server.h"
+#include "emulator/arm.h"
 
 namespace emulator {
 namespace {

@@ -1,17 +1,20 @@
-// The two lists of faults, the reading of scripts, and the faults that are active.
+// The lists of faults, the reading of scripts, and the faults that are active.
 #include "emulator/faults.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "emulator/settings.h"
+#include "emulator/files.h"
 
 namespace emulator {
 namespace {
 
-// The faults of both devices on a serial line. A reply of the gauge is a line that it sends.
-constexpr std::array line_kinds{
+// The faults of the gauge alone, those of both devices on a serial line, and those of the stand
+// alone. A reply of the gauge is a line that it sends.
+constexpr std::array serial_kinds{
+    FaultKind{"wrong_unit", Life::replies, "the line ends with the unit `kp`"},
+    FaultKind{"clock_jump", Life::moment, "the gauge's own time jumps ahead by `value` (\"5 s\")"},
     FaultKind{"unplug", Life::moment, "the port is gone; with `duration` it comes back"},
     FaultKind{"stall", Life::lasting, "nothing is sent; replies come afterwards, at once"},
     FaultKind{"deaf", Life::lasting, "bytes that arrive are lost, `s` as well"},
@@ -42,9 +45,6 @@ constexpr std::array line_kinds{
     FaultKind{"overload", Life::lasting, "the gauge reports an overload; a stand stops"},
     FaultKind{"reset", Life::moment,
               "switched off and on: a stand's settings are lost, a gauge's time is 0"},
-};
-
-constexpr std::array stand_only{
     FaultKind{"error_reply", Life::replies, "`*10` is sent instead of the reply"},
     FaultKind{"swap", Life::replies, "the reply's two lines come in the other order"},
     FaultKind{"travel_unit_change", Life::moment, "the stand shows inches"},
@@ -52,21 +52,8 @@ constexpr std::array stand_only{
               "the crosshead stops as at a limit switch; only the opposite direction is free"},
     FaultKind{"runaway", Life::lasting, "`s` is ignored"},
 };
-
-constexpr std::array gauge_only{
-    FaultKind{"wrong_unit", Life::replies, "the line ends with the unit `kp`"},
-    FaultKind{"clock_jump", Life::moment, "the gauge's own time jumps ahead by `value` (\"5 s\")"},
-};
-
-template <std::size_t a, std::size_t b>
-constexpr std::array<FaultKind, a + b> both(const std::array<FaultKind, a>& one,
-                                            const std::array<FaultKind, b>& other) {
-  std::array<FaultKind, a + b> all{};
-  std::copy(other.begin(), other.end(), std::copy(one.begin(), one.end(), all.begin()));
-  return all;
-}
-constexpr auto stand_kinds = both(line_kinds, stand_only);
-constexpr auto gauge_kinds = both(line_kinds, gauge_only);
+constexpr std::size_t of_gauge = 2;  // alone
+constexpr std::size_t of_stand = 5;
 
 constexpr std::array arm_kinds{
     FaultKind{"rst", Life::moment, "the connection is reset"},
@@ -165,9 +152,11 @@ void fields(FieldVisitor& visitor, Fault& fault, std::span<const FaultKind> kind
 
 }  // namespace
 
-std::span<const FaultKind> line_faults() { return line_kinds; }
-std::span<const FaultKind> stand_faults() { return stand_kinds; }
-std::span<const FaultKind> gauge_faults() { return gauge_kinds; }
+std::span<const FaultKind> stand_faults() { return std::span(serial_kinds).subspan(of_gauge); }
+std::span<const FaultKind> gauge_faults() {
+  return std::span(serial_kinds).first(serial_kinds.size() - of_stand);
+}
+std::span<const FaultKind> line_faults() { return gauge_faults().subspan(of_gauge); }
 std::span<const FaultKind> arm_faults() { return arm_kinds; }
 
 std::vector<Fault> read_faults(const std::string& path, std::span<const FaultKind> kinds) {

@@ -19,7 +19,7 @@ struct FaultKind {
   const char* what = nullptr;  // for docs/emulator.md and the verb `faults`
 };
 
-// The faults of the stand and of the gauge; those of both come first: line_faults().
+// The faults of the stand and of the gauge, and those of both: line_faults().
 [[nodiscard]] std::span<const FaultKind> line_faults();
 [[nodiscard]] std::span<const FaultKind> stand_faults();
 [[nodiscard]] std::span<const FaultKind> gauge_faults();

@@ -1,4 +1,5 @@
-// The force gauge: noisy samples, averages, zero, peaks, and the display with its units.
+// The force gauge: noisy samples, averages, zero, peaks, the display with its units, and GCL2, its
+// command language.
 #pragma once
 
 #include <array>
@@ -8,10 +9,35 @@
 #include <string>
 #include <string_view>
 
+#include "base/fields.h"
 #include "emulator/faults.h"
-#include "emulator/random.h"
 
 namespace emulator {
+
+// Seeded noise with the same bits on every machine, without distributions of the library.
+struct Random {
+  std::uint64_t state;
+};
+
+// splitmix64 (Steele, Lea, Flood 2014).
+inline std::uint64_t next_bits(Random& random) {
+  random.state += 0x9E3779B97F4A7C15U;
+  std::uint64_t z = random.state;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
+  return z ^ (z >> 31U);
+}
+
+// Sum of twelve uniform numbers minus six: mean 0, variance 1, magnitude below 6.
+inline double next_normal(Random& random) {
+  std::int64_t sum = 0;
+  for (int word = 0; word < 3; ++word) {
+    const std::uint64_t bits = next_bits(random);
+    for (int part = 0; part < 4; ++part)
+      sum += static_cast<std::int64_t>((bits >> (16U * static_cast<unsigned>(part))) & 0xFFFFU);
+  }
+  return (static_cast<double>(sum) + 6.0) / 65536.0 - 6.0;  // each number is the middle of a step
+}
 
 // A unit that the gauge can display.
 struct ForceUnit {
@@ -40,6 +66,9 @@ struct GaugeSettings {
   int filter = 3;            // FLTC: the display averages 2^filter samples
   int peak_filter = 1;       // FLTP: peaks average 2^peak_filter samples
 };
+
+// Its keys that every gauge has.
+void fields(palpate::FieldVisitor& visitor, GaugeSettings& settings);
 
 enum class Polarity { compression_positive, compression_negative };
 enum class Reading { current, peak_tension, peak_compression };
@@ -97,5 +126,25 @@ void clear_peaks(Gauge& gauge);
 
 // `value` rounded to a multiple of `step`, with the decimals of `step`, and never "-0.00".
 [[nodiscard]] std::string in_steps(double value, double step);
+
+enum class ListStyle {
+  ipol,  // V1.00;N;CUR;FLTC3;FLTP1;AOUT0;AOFF5;FULL;IPOL0;OPOL0;B0
+  pol,   // V1.00;LBF;CUR;FLTC8;FLTP1;AOUT00;AOFF5;FULL;MIT;POL;B0, the Series 5 guide's example
+};
+enum class OverloadReply { text, saturated };
+
+struct Gcl2 {
+  ListStyle list = ListStyle::ipol;
+  OverloadReply overload = OverloadReply::text;
+  int auto_output = 0;  // readings per second
+  int auto_off = 5;     // minutes; stored and listed, without effect
+};
+
+// Carries out one command (without its line end). Returns the reply with CR LF; it is empty for a
+// setter without error. Errors: *10 illegal, *11 not applicable, *12 bad specifier, *22 too large.
+[[nodiscard]] std::string obey(Gcl2& language, Gauge& gauge, std::string_view command);
+
+// The reply to `?` with CR LF: a reading, or the sign of an overload.
+[[nodiscard]] std::string reading_line(const Gcl2& language, const Gauge& gauge, Reading reading);
 
 }  // namespace emulator

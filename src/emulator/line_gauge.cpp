@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "emulator/files.h"
 #include "emulator/stand.h"
 
 namespace emulator {
@@ -192,6 +193,42 @@ void LineGauge::take(char byte, Rate rate_of_other_side) {
     send_line(reply);
   else
     send(reply);
+}
+
+// Reads the tables [gauge] and [[waypoint]] of a gauge.
+
+namespace {
+
+using palpate::above;
+
+constexpr auto style_words = palpate::words_of<LineStyle>({{"hx711", "`1200,10.35,0.52`, sent"},
+                                                           {"mark10", "`0.102 N`"},
+                                                           {"balance", "`ST,+00010.35  g`"}});
+
+}  // namespace
+
+void fields(FieldVisitor& visitor, LineGaugeSettings& settings) {
+  visitor.table({"gauge", "the gauge"}, [&](FieldVisitor& inside) {
+    inside.choice({"style", "format of the lines"}, settings.style, style_words);
+    inside.number({"rate", "lines per second"}, settings.rate, above(0.0));
+    inside.flag({"travel", "whether the lines have the travel"}, settings.travel);
+    inside.quantity({"travel_resolution", "of the travel"}, settings.travel_resolution, unit::mm,
+                    above(0.0));
+    fields(inside, settings.gauge);
+  });
+  visitor.tables(
+      {"waypoint", "travel of the hand at a time"}, static_cast<int>(settings.points.size()),
+      [&](int count) { settings.points.resize(palpate::as_index(count)); },
+      [&](FieldVisitor& inside, int i) {
+        TravelPoint& point = settings.points[palpate::as_index(i)];
+        inside.quantity({"at", "time of arrival"}, point.at, unit::s, above(0.0));
+        inside.quantity({"travel", "downwards"}, point.travel, unit::mm, {});
+      });
+}
+
+void read_line_gauge(const std::string& path, LineGaugeSettings& settings) {
+  refuse_unordered(read_settings(path, [&](FieldVisitor& visitor) { fields(visitor, settings); }),
+                   settings.points);
 }
 
 }  // namespace emulator

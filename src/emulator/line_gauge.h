@@ -8,7 +8,6 @@
 
 #include "emulator/faults.h"
 #include "emulator/gauge.h"
-#include "emulator/gcl2.h"
 #include "emulator/serial_device.h"
 #include "emulator/tissue.h"
 

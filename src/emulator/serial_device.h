@@ -1,4 +1,5 @@
-// What the stand and the gauge have in common: a serial line with its clock, its bytes and faults.
+// A device on a serial line, with its clock, its bytes and faults, and the loop that runs it on a
+// pseudo-terminal.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +8,20 @@
 #include <vector>
 
 #include "emulator/faults.h"
-#include "emulator/gauge.h"
-#include "emulator/log.h"
-#include "emulator/stand.h"
+#include "emulator/files.h"
 
 namespace emulator {
+
+using Nanoseconds = std::int64_t;  // since the emulator's start
+
+[[nodiscard]] constexpr double seconds(Nanoseconds time) {
+  return static_cast<double>(time) * 1e-9;
+}
+[[nodiscard]] constexpr Nanoseconds nanoseconds(double time) {
+  return static_cast<Nanoseconds>(time * 1e9 + (time < 0.0 ? -0.5 : 0.5));
+}
+
+inline constexpr std::int64_t rate = 7000;  // gauge samples and mechanical steps per second
 
 // The machine's monotonic clock, or `--clock virtual`: only bytes and requests advance the time.
 enum class Clock { real, lockstep };
@@ -71,5 +81,19 @@ class SerialDevice {
   bool unplugged_ = false;
   std::optional<Nanoseconds> again_ = {};
 };
+
+struct PtyRun {
+  std::string link = {};
+  std::string log = {};
+  std::optional<double> lifetime = {};  // s, real time; none: until SIGINT or SIGTERM
+  int baud = 115200;
+  Clock clock = Clock::real;
+  Nanoseconds tick = 20'000'000;  // of a virtual clock
+};
+
+// Prints one JSON line with the port when the port is ready, and again after an `unplug`, and one
+// with the device's summary() at the end. Returns the exit code. Throws InputError if no port can
+// be opened, the rate is unknown, or `link` is another file.
+int run_on_pty(const PtyRun& run, SerialDevice& device);
 
 }  // namespace emulator

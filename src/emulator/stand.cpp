@@ -2,9 +2,15 @@
 #include "emulator/stand.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "emulator/files.h"
 
 namespace emulator {
 namespace {
@@ -247,6 +253,286 @@ double travel(const Stand& stand) { return stand.crosshead.position - stand.zero
 
 double depth(const Stand& stand) {
   return stand.settings.tissue.surface - stand.crosshead.position;
+}
+
+// Reads the tables [stand] and [gauge].
+
+namespace {
+
+using palpate::above;
+using palpate::between;
+using palpate::Word;
+using palpate::words_of;
+
+constexpr auto status_words =
+    words_of<StatusLayout>({{"compact", "`SLDL`"}, {"spaced", "`S L DL`"}, {"none", "no reply"}});
+constexpr auto order_words =
+    words_of<PairOrder>({{"force_first", "as LabKit reads it"}, {"travel_first", "the other way"}});
+constexpr auto list_words =
+    words_of<ListStyle>({{"ipol", "with `IPOL0;OPOL0`"}, {"pol", "with `MIT;POL`"}});
+constexpr auto overload_words = words_of<OverloadReply>(
+    {{"text", "`OVERLOAD`"}, {"saturated", "the largest number that it can show"}});
+
+std::vector<Word> unit_words() {
+  std::vector<Word> words;
+  for (const ForceUnit& unit : force_units) words.push_back({unit.symbol.data(), ""});
+  return words;
+}
+
+void stand_fields(FieldVisitor& visitor, StandSettings& settings) {
+  CrossheadSettings& head = settings.crosshead;
+  visitor.quantity({"acceleration", "of every change of speed"}, head.acceleration, unit::mm_per_s2,
+                   above(0.0));
+  visitor.quantity({"slowest", "lowest speed"}, head.slowest, unit::mm_per_min, above(0.0));
+  visitor.quantity({"fastest", "greatest speed"}, head.fastest, unit::mm_per_min, above(0.0));
+  visitor.quantity({"speed", "after switching on"}, settings.speed, unit::mm_per_min, {});
+  visitor.quantity({"lower_end", "lower limit switch, from the start"}, head.lower_end, unit::mm,
+                   {.high = 0.0, .high_allowed = false});
+  visitor.quantity({"upper_end", "upper limit switch, from the start"}, head.upper_end, unit::mm,
+                   above(0.0));
+  visitor.quantity({"travel_resolution", "resolution of the displayed travel"},
+                   settings.travel_resolution, unit::mm, above(0.0));
+  visitor.flag({"pc_control", "whether the line may move the stand"}, settings.pc_control);
+  visitor.flag({"travel_display", "whether it has one"}, settings.travel_display);
+  visitor.choice({"order", "of the two lines of `n`"}, settings.order, order_words);
+  visitor.choice({"status", "how `p` writes its codes"}, settings.status, status_words);
+}
+
+void gauge_fields(FieldVisitor& visitor, StandSettings& settings) {
+  GaugeSettings& gauge = settings.gauge;
+  fields(visitor, gauge);
+  int unit = static_cast<int>(gauge.unit);
+  visitor.choice_of({"unit", "of the displayed force"}, unit, unit_words());
+  gauge.unit = palpate::as_index(unit);
+  visitor.count({"filter", "the display averages 2^filter samples"}, gauge.filter, between(0, 10));
+  visitor.count({"peak_filter", "peaks average 2^peak_filter samples"}, gauge.peak_filter,
+                between(0, 10));
+  visitor.choice({"list", "the form of the reply to LIST"}, settings.list, list_words);
+  visitor.choice({"overload", "the reply above 110 % of the capacity"}, settings.overload,
+                 overload_words);
+}
+
+}  // namespace
+
+void fields(FieldVisitor& visitor, StandSettings& settings) {
+  visitor.table({"stand", "the crosshead"},
+                [&](FieldVisitor& inside) { stand_fields(inside, settings); });
+  visitor.table({"gauge", "the force gauge"},
+                [&](FieldVisitor& inside) { gauge_fields(inside, settings); });
+}
+
+void read_stand(const std::string& path, StandSettings& settings) {
+  const palpate::Node file =
+      read_settings(path, [&](FieldVisitor& visitor) { fields(visitor, settings); });
+  if (settings.crosshead.fastest < settings.crosshead.slowest)
+    refuse(file, "stand.fastest", "`fastest` is below `slowest`; give a greater speed");
+}
+
+// Time steps of the crosshead: it accelerates, cruises, and brakes before the end of its range.
+
+namespace {
+
+// m, the position at which a motion ends: the limit switch, or a travel limit before it.
+double end_of_way(const Crosshead& crosshead, int direction) {
+  const CrossheadSettings& s = crosshead.settings;
+  if (crosshead.mode == Mode::manual) return direction > 0 ? s.upper_end : s.lower_end;
+  return direction > 0 ? std::min(s.upper_end, crosshead.upper_limit)
+                       : std::max(s.lower_end, crosshead.lower_limit);
+}
+
+void arrive(Crosshead& crosshead, double end) {
+  crosshead.position = end;
+  crosshead.velocity = 0.0;
+  crosshead.at_end = crosshead.direction;
+  ++crosshead.half_cycles;
+  const bool again =
+      crosshead.mode == Mode::cycle && crosshead.half_cycles < 2 * crosshead.cycles_set;
+  crosshead.direction = again ? -crosshead.direction : 0;
+}
+
+}  // namespace
+
+void send_off(Crosshead& crosshead, int direction) {
+  const double left = (end_of_way(crosshead, direction) - crosshead.position) * direction;
+  crosshead.half_cycles = 0;
+  if (direction != crosshead.pressed) crosshead.pressed = 0;
+  if (left <= 0.0 || crosshead.pressed != 0) {
+    crosshead.at_end = direction;
+    halt(crosshead);
+    return;
+  }
+  crosshead.direction = direction;
+}
+
+void halt(Crosshead& crosshead) { crosshead.direction = 0; }
+
+bool moves(const Crosshead& crosshead) {
+  return crosshead.direction != 0 || crosshead.velocity != 0.0;
+}
+
+// |v| changes by at most a dt, and the distance left after the step must suffice for braking:
+//   v1^2 / (2 a) <= d - (v + v1) dt / 2   =>   v1 = -a dt/2 + sqrt((a dt/2)^2 + 2 a d - a dt v)
+// The position moves with the mean of both velocities, which is exact for constant acceleration.
+void step(Crosshead& crosshead, double dt) {
+  if (!moves(crosshead)) return;
+  const double most = crosshead.settings.acceleration * dt;
+  const int way = crosshead.direction;
+  double wanted = 0.0;
+  if (way != 0) {
+    const double left = (end_of_way(crosshead, way) - crosshead.position) * way;
+    const double half = 0.5 * most;  // a dt / 2
+    const double square = half * half + 2.0 * crosshead.settings.acceleration * left -
+                          most * crosshead.velocity * way;
+    const double braking = square > 0.0 ? std::max(0.0, std::sqrt(square) - half) : 0.0;
+    wanted = way * std::min(crosshead.speed, braking);
+  }
+  const double before = crosshead.velocity;
+  const double after = before + std::clamp(wanted - before, -most, most);
+  crosshead.position += 0.5 * (before + after) * dt;
+  crosshead.velocity = after;
+  if (after != 0.0) crosshead.at_end = 0;
+  // A rest of less than a few a dt^2, left by rounding or by a partial step, counts as arrival.
+  const double near = 8.0 * most * dt;
+  if (way != 0) {
+    const double stop = end_of_way(crosshead, way);
+    const double left = (stop - crosshead.position) * way;
+    if (after * way >= 0.0 && left <= 0.5 * most * dt) {
+      if (left >= -near)
+        arrive(crosshead, stop);
+      else
+        halt(crosshead);  // a limit was set that it has already passed
+    }
+  }
+  for (const int side : {-1, 1}) {  // a limit switch stops every motion at once
+    const double end = side > 0 ? crosshead.settings.upper_end : crosshead.settings.lower_end;
+    if ((end - crosshead.position) * side >= 0.0) continue;
+    crosshead.position = end;
+    crosshead.velocity = 0.0;
+    crosshead.direction = 0;
+    crosshead.at_end = side;
+  }
+}
+
+// Processes bytes: clock, faults and stand.
+
+namespace {
+
+// Divides a reply into its first line (with its end) and the rest.
+std::pair<std::string, std::string> split(const std::string& reply) {
+  const auto end = reply.find('\n');
+  if (end == std::string::npos) return {reply, {}};
+  return {reply.substr(0, end + 1), reply.substr(end + 1)};
+}
+
+std::size_t unit_of(std::string_view symbol) {
+  for (std::size_t unit = 0; unit < force_units.size(); ++unit)
+    if (force_units[unit].symbol == symbol) return unit;
+  return 0;
+}
+
+}  // namespace
+
+Mark10::Mark10(const Mark10Settings& settings, Log& log)
+    : SerialDevice(settings.faults, settings.baud, log),
+      settings_(settings),
+      stand_(make_stand(settings.stand)),
+      delays_{settings.stand.seed ^ 0x9E3779B97F4A7C15U} {}  // other numbers than the gauge's noise
+
+void Mark10::log_row(const char* kind, const std::string& text) {
+  const std::array values{stand_.crosshead.position, travel(stand_), stand_.crosshead.velocity,
+                          depth(stand_), force_of(stand_.tissue)};
+  log_->row(now_, kind, text, values);
+}
+
+std::string Mark10::summary() const {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                R"({"requests":%lld,"position_m":%.9g,"deepest_m":%.9g,)"
+                R"("greatest_force_N":%.9g,"moving":%s})",
+                static_cast<long long>(requests_), stand_.crosshead.position, stand_.deepest,
+                stand_.greatest_force, moves(stand_.crosshead) ? "true" : "false");
+  return text;
+}
+
+void Mark10::advance_to(Nanoseconds time) {
+  now_ = time;
+  advance(stand_, now_);
+}
+
+void Mark10::go_to(Nanoseconds time, std::int64_t requests) {
+  SerialDevice::go_to(time, requests);
+  spoil(stand_.gauge, faults_, now_, depth(stand_));
+  if (!stand_.unsolicited.empty()) send(std::exchange(stand_.unsolicited, {}));
+}
+
+void Mark10::begin(const Fault& fault) {
+  if (fault.kind == "unit_change") stand_.gauge.unit = unit_of("lbF");
+  if (fault.kind == "travel_unit_change") stand_.inches = true;
+  if (fault.kind == "reset") switch_on_again(stand_);
+  if (fault.kind == "overload") halt(stand_.crosshead);
+  if (fault.kind == "limit_switch") {
+    Crosshead& head = stand_.crosshead;
+    head.at_end = head.pressed = head.velocity > 0.0 || head.direction > 0 ? 1 : -1;
+    head.direction = 0;
+    head.velocity = 0.0;
+  }
+}
+
+std::string Mark10::reply_to(char byte) {
+  if (byte == 's' && !stand_.to_gauge && faults_.lasts("runaway", now_)) return {};
+  const bool request = ends_request(stand_, byte);
+  if (request && faults_.spoils("nan")) stand_.gauge.forced_number = "nan";
+  if (request && faults_.spoils("huge")) stand_.gauge.forced_number = "1e308";
+  std::string reply = receive(stand_, byte);
+  stand_.gauge.forced_number.reset();
+  if (reply.empty()) return reply;
+  if (!faults_.lasts("freeze", now_))
+    frozen_.clear();
+  else if (byte == 'n' && frozen_.empty())
+    frozen_ = reply;
+  else if (byte == 'n')
+    reply = frozen_;
+  const auto [first, second] = split(reply);
+  if (faults_.spoils("error_reply")) reply = "*10\r\n";
+  if (faults_.spoils("no_travel")) reply = first;
+  if (faults_.spoils("swap")) reply = second + first;
+  return spoilt(reply, reading_line(stand_.language, stand_.gauge, stand_.gauge.mode), 0);
+}
+
+Nanoseconds Mark10::age_of_reading() {
+  if (settings_.jitter == 0) return settings_.latency;
+  const auto parts = static_cast<std::uint64_t>(settings_.jitter);
+  return settings_.latency + static_cast<Nanoseconds>(next_bits(delays_) % parts);
+}
+
+void Mark10::pass(Nanoseconds now) {
+  // -1: faults that count requests begin with a byte only, after the last reply has left.
+  if (settings_.clock == Clock::real) go_to(now, -1);
+}
+
+void Mark10::take(char byte, Rate rate_of_other_side) {
+  const bool lockstep = settings_.clock == Clock::lockstep;
+  go_to(lockstep ? now_ + byte_time() : now_, requests_);
+  if (unplugged()) return;
+  hears_at(rate_of_other_side);
+  const bool garbled = other_rate_ || faults_.lasts("wrong_baud", now_);
+  const char heard = garbled ? noise(byte) : byte;
+  if (faults_.lasts("deaf", now_)) {
+    log_row("in", "(unheard) " + std::string(1, heard));
+    return;
+  }
+  if (faults_.lasts("echo", now_)) send(std::string(1, byte));
+  const bool request = ends_request(stand_, heard);
+  const Nanoseconds due = (now_ / settings_.tick + 1) * settings_.tick;
+  if (request && lockstep) go_to(std::max(now_, due - age_of_reading()), requests_);
+  if (unplugged()) return;
+  command_ += heard;
+  const std::string reply = reply_to(heard);
+  if (request && lockstep) go_to(due, requests_);
+  if (between_commands(stand_)) log_row("in", std::exchange(command_, {}));
+  send(reply);
+  if (lockstep) go_to(now_ + byte_time() * static_cast<Nanoseconds>(reply.size()), requests_);
+  if (request) ++requests_;  // faults with `after_messages` begin with the next byte
 }
 
 }  // namespace emulator

@@ -1,24 +1,47 @@
-// The motorised stand with its gauge, pressing the tissue: commands, replies and motion in time.
+// The motorised stand with its gauge, pressing the tissue: commands, replies and motion in time, on
+// its serial line, with clocks and faults; bytes are texts, without a port.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "emulator/crosshead.h"
 #include "emulator/gauge.h"
-#include "emulator/gcl2.h"
+#include "emulator/serial_device.h"
 #include "emulator/tissue.h"
 
 namespace emulator {
 
-using Nanoseconds = std::int64_t;  // since the emulator's start
+enum class Mode { limit, manual, cycle };  // commands `l`, `m`, `c`
 
-[[nodiscard]] constexpr double seconds(Nanoseconds time) {
-  return static_cast<double>(time) * 1e-9;
-}
-[[nodiscard]] constexpr Nanoseconds nanoseconds(double time) {
-  return static_cast<Nanoseconds>(time * 1e9 + (time < 0.0 ? -0.5 : 0.5));
-}
+struct CrossheadSettings {
+  double acceleration = 0.2;        // m/s^2, of every change of speed
+  double slowest = 0.5e-3 / 60.0;   // m/s
+  double fastest = 1100e-3 / 60.0;  // m/s
+  double lower_end = -0.15;         // m, the lower limit switch
+  double upper_end = 0.15;          // m, the upper one
+};
+
+struct Crosshead {
+  CrossheadSettings settings = {};
+  Mode mode = Mode::manual;
+  double position = 0;          // m, upwards
+  double velocity = 0;          // m/s
+  double speed = 60e-3 / 60.0;  // m/s, of the next motion
+  int direction = 0;            // -1 down, 0 stopped or stopping, 1 up
+  double lower_limit = -0.15;   // m, active in limit and cycle mode
+  double upper_limit = 0.15;    // m
+  std::int64_t cycles_set = 1;
+  std::int64_t half_cycles = 0;  // completed strokes
+  int at_end = 0;                // -1 at the lower end of its range, 1 at the upper end
+  int pressed = 0;               // fault limit_switch: the direction that is blocked, or 0
+};
+
+// Starts a motion. If the crosshead is already at that end, or blocked, it stops instead.
+void send_off(Crosshead& crosshead, int direction);
+void halt(Crosshead& crosshead);  // brakes with the acceleration limit
+void step(Crosshead& crosshead, double dt);
+[[nodiscard]] bool moves(const Crosshead& crosshead);
 
 // The layout of the reply to `p`: the guide lists its codes only.
 enum class StatusLayout { compact, spaced, none };   // "SLUL", "S L UL", no reply
@@ -64,8 +87,6 @@ struct Stand {
   double greatest_force = 0;  // N, so far
 };
 
-inline constexpr std::int64_t rate = 7000;  // gauge samples and mechanical steps per second
-
 [[nodiscard]] Stand make_stand(const StandSettings& settings);
 
 // Switches the stand off and on: settings, zeros and limits are lost, the crosshead does not move.
@@ -84,5 +105,44 @@ void advance(Stand& stand, Nanoseconds time);
 
 [[nodiscard]] double travel(const Stand& stand);  // m, true travel from the zero
 [[nodiscard]] double depth(const Stand& stand);   // m, true depth below the surface
+
+struct Mark10Settings {
+  StandSettings stand = {};
+  std::vector<Fault> faults = {};
+  Clock clock = Clock::real;
+  Nanoseconds tick = 20'000'000;  // lockstep: requests are answered at multiples of it
+  // Lockstep: the readings in a reply are older than the reply, by `latency` and a random time of
+  // up to `jitter`.
+  Nanoseconds latency = 0;
+  Nanoseconds jitter = 0;
+  int baud = 115200;
+};
+
+class Mark10 : public SerialDevice {
+ public:
+  Mark10(const Mark10Settings& settings, Log& log);
+
+  void pass(Nanoseconds now) override;
+  void take(char byte, Rate rate_of_other_side) override;
+
+  [[nodiscard]] const Stand& stand() const { return stand_; }
+  [[nodiscard]] std::int64_t requests() const { return requests_; }
+  [[nodiscard]] std::string summary() const override;
+
+ private:
+  void go_to(Nanoseconds time, std::int64_t requests);
+  void advance_to(Nanoseconds time) override;
+  void begin(const Fault& fault) override;
+  void log_row(const char* kind, const std::string& text) override;
+  [[nodiscard]] Nanoseconds age_of_reading();
+  [[nodiscard]] std::string reply_to(char byte);
+
+  Mark10Settings settings_;
+  Stand stand_;
+  Random delays_;
+  std::int64_t requests_ = 0;
+  std::string command_ = {};  // bytes of an incomplete command, for the log
+  std::string frozen_ = {};   // the reply that the fault `freeze` repeats
+};
 
 }  // namespace emulator

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "emulator/settings.h"
+#include "emulator/files.h"
 
 namespace emulator {
 

@@ -1,5 +1,5 @@
 // Rows in contact and free rows are told apart by the pull-off; then all unknowns by Ceres.
-#include "fit/adhesive.h"
+#include "fit/contact_model.h"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +13,8 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "fit/ceres_fit.h"
-#include "fit/contact_warnings.h"
-#include "fit/loading_part.h"
-#include "fit/settle.h"
-#include "fit/step_origin.h"
+#include "fit/parts.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {
@@ -130,7 +128,6 @@ class AdhesiveFit {
                        {.name = "F_0", .unit = "N"},
                        {.name = "tilt", .unit = "N/mm"}};
     fit_.parameters.resize(count);
-    for (std::size_t i = 0; i < count; ++i) fit_.parameters[i].initial = start[i] * scale[i];
     fit_.n = static_cast<int>(curve_.depth.size());
     fit_.range_low = unit::mm.from_si(*low);
     fit_.range_high = unit::mm.from_si(*high);
@@ -158,10 +155,7 @@ class AdhesiveFit {
       curve_.force.push_back(force[i]);
     }
     const std::size_t finite = curve_.depth.size();
-    if (finite < 8)
-      throw InputError({}, "the model `" + fit_.name + "` needs at least 8 points, and " +
-                               std::to_string(finite) + (finite == 1 ? " is" : " are") +
-                               " usable; record more points");
+    need_points(fit_.name, 8, finite);
     const auto part = one_way(curve_.depth, test_.way);
     for (std::vector<double>* each : {&curve_.depth, &curve_.force})
       *each = {each->begin() + static_cast<std::ptrdiff_t>(part.from),
@@ -170,13 +164,11 @@ class AdhesiveFit {
     if (curve_.depth.front() < curve_.depth.back())
       for (std::vector<double>* each : {&curve_.depth, &curve_.force})
         std::reverse(each->begin(), each->end());
-    fit_.excluded = static_cast<int>(depth.size() - curve_.depth.size());
-    if (finite > curve_.depth.size())
-      fit_.notes.push_back(std::to_string(finite - curve_.depth.size()) +
-                           (test_.way == ContactTest::Way::approach
-                                ? " points are excluded: the way back from the deepest row"
-                                : " points are excluded: the way to the deepest row; `--segment "
-                                  "approach` fits it"));
+    fit_.excluded = static_cast<int>(depth.size() - finite);
+    leave_out(fit_, finite - curve_.depth.size(),
+              test_.way == ContactTest::Way::approach
+                  ? "the way back from the deepest row"
+                  : "the way to the deepest row; `--segment approach` fits it");
     for (const double each : curve_.force) scale_ = std::max(scale_, std::abs(each));
     if (!(scale_ > 0.0)) throw InputError({}, "the force is 0 at every point; name another `--y`");
     for (double& each : curve_.force) each /= scale_;
@@ -189,12 +181,8 @@ class AdhesiveFit {
     const auto least = std::min_element(force.begin(), force.end());
     const auto at = static_cast<std::size_t>(least - force.begin());
     const bool zeroed = test_.baseline == ContactTest::BaselineChoice::none;
-    std::vector<double> last(
-        force.end() - static_cast<std::ptrdiff_t>(std::max<std::size_t>(3, force.size() / 10)),
-        force.end());
-    std::nth_element(last.begin(), last.begin() + static_cast<std::ptrdiff_t>(last.size() / 2),
-                     last.end());
-    level_ = zeroed ? 0.0 : last[last.size() / 2];
+    const auto some = static_cast<std::ptrdiff_t>(std::max<std::size_t>(3, force.size() / 10));
+    level_ = zeroed ? 0.0 : median({force.end() - some, force.end()});
     pull_ = level_ - *least;
     std::size_t end = at;
     while (end < force.size() && force[end] < level_ - 0.3 * pull_) ++end;

@@ -9,11 +9,11 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
+#include "contact/depth_ratio.h"
 #include "contact/layer.h"
 #include "fit/ceres_fit.h"
 #include "fit/contact_search.h"
-#include "fit/contact_warnings.h"
-#include "fit/settle.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {
@@ -28,26 +28,100 @@ struct Law {
 Law law_of(const ContactTest& test) {
   if (!test.thickness) {
     const Tip tip{test.tip, test.radius, test.half_angle};
-    return {[tip](double depth) {
-              const TipForce at = tip_force(tip, depth);
-              return UnitForce{at.force, at.stiffness};
-            },
+    return {[tip](double depth) { return tip_force(tip, depth); },
             std::numeric_limits<double>::infinity(), law_text(test.tip)};
   }
   const contact::Layer layer{.poisson_ratio = test.poisson_ratio, .base = test.base};
   const contact::LayerContact contact{test.radius, 1.0, *test.thickness, contact::LayerLaw(layer)};
   const double deepest = contact.last_depth();
   return {[contact](double depth) {
-            return depth > 0.0 ? UnitForce{contact.force(depth), contact.stiffness(depth)}
-                               : UnitForce{0.0, 0.0};
+            return depth > 0.0 ? TipForce{contact.force(depth), contact.stiffness(depth)}
+                               : TipForce{0.0, 0.0};
           },
           deepest,
           "Hertz 1881 times the exact factor of a layer of " +
               rounded_text(unit::mm.from_si(*test.thickness)) + " mm"};
 }
 
-std::string plural(int count, const char* noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? " is" : "s are");
+// A finished fit with the sizes that its warnings depend on.
+struct ContactResult {
+  const ContactTest& test;
+  Baseline baseline;
+  double deepest = 0.0;    // m, below the contact point
+  std::size_t before = 0;  // rows before the contact point
+  std::size_t beyond = 0;  // rows beyond it
+  double drift = 0.0;      // rise of the tilt over all rows, as a share of the contact force
+};
+
+// The force of a sphere on neo-Hookean tissue at the deepest row, or as deep as it is known,
+// against the law fitted, minus 1; 0 where it is not known.                      docs/theory.md
+// [deep]
+struct Change {
+  double depth = 0.0, change = 0.0;
+};
+Change change_by_strain(const ContactResult& result) {
+  const ContactTest& test = result.test;
+  const bool round = test.tip == Tip::Kind::paraboloid || test.tip == Tip::Kind::sphere;
+  if (!round) return {};
+  const auto ratio = contact::depth_ratio(
+      {.radius = test.radius,
+       .thickness = test.thickness.value_or(std::numeric_limits<double>::infinity()),
+       .poisson_ratio = test.poisson_ratio,
+       .base = test.base});
+  if (!ratio) return {};
+  const double depth = std::min(result.deepest, ratio->last_depth());
+  const double linear =  // of the paraboloid, to which the ratio refers
+      test.tip == Tip::Kind::sphere ? 1.0 + error_of_hertz(depth, test.radius) : 1.0;
+  return {depth, ratio->value(depth) * linear - 1.0};
+}
+
+std::string rows_text(std::size_t count) {
+  return (count == 0 ? "no" : std::to_string(count)) + (count < 2 ? " row lies" : " rows lie");
+}
+
+// Adds sentences to fit.warnings: few rows in contact, no rows before contact, a tilt as large as
+// the contact force, a tip deeper than its radius, the error of Hertz's law at the deepest row.
+void warn_of_contact(Fit& fit, const ContactResult& result) {
+  const ContactTest& test = result.test;
+  const auto warn = [&](const std::string& sentence) { fit.warnings.push_back(sentence); };
+  if (result.beyond < 10)
+    warn("only " + rows_text(result.beyond) +
+         " beyond the contact point, so that modulus and contact point depend on each other; "
+         "record more points, or press deeper");
+  const bool automatic = test.baseline == ContactTest::BaselineChoice::automatic;
+  if (automatic && result.before < 3)
+    warn(rows_text(result.before) +
+         (result.baseline == Baseline::none
+              ? " before contact, so that a force offset cannot be told; the force is taken as "
+                "measured from zero"
+              : " before contact, and the force offset follows from the bend of the curve alone; "
+                "record rows before contact, or give `--baseline none` if the force is zeroed"));
+  if (result.baseline == Baseline::tilt && result.drift > 0.5)
+    warn("the baseline rises by " + percent_text(result.drift) +
+         " of the contact force over the curve; give `--baseline offset` or a part of the curve by "
+         "`--to`");
+  const bool round = test.tip == Tip::Kind::paraboloid || test.tip == Tip::Kind::sphere;
+  if (round && result.deepest > test.radius) {
+    warn("the tip is " + rounded_text(result.deepest / test.radius, 3) +
+         " radii deep, and beyond one radius its shape is no sphere; give the part of the curve "
+         "up to a smaller depth by `--to`");
+  } else if (test.tip == Tip::Kind::paraboloid) {
+    const double error = error_of_hertz(result.deepest, test.radius);
+    if (error > 0.02)
+      warn("at the largest depth Hertz's law of a paraboloid is " + percent_text(error) +
+           " stiffer than the exact law of a sphere" +
+           (test.thickness ? "; give a smaller depth by `--to`"
+                           : "; give `--tip sphere`, or a smaller depth by `--to`"));
+  }
+  if (const auto [depth, change] = change_by_strain(result); std::abs(change) > 0.02)
+    fit.notes.push_back(
+        "the law is that of small strains: in neo-Hookean tissue the force at " +
+        (depth < result.deepest ? "a depth of " + rounded_text(unit::mm.from_si(depth)) + " mm"
+                                : std::string("the largest depth")) +
+        " is " + percent_text(std::abs(change)) + (change < 0.0 ? " lower" : " higher") +
+        (depth < result.deepest ? " already, and how much beyond is not known"
+                                : ", which `palpate identify` takes into account"));
+  warn_of_residuals(fit);
 }
 
 class ContactFit {
@@ -64,9 +138,7 @@ class ContactFit {
     const ContactChoice choice = part ? chosen_part() : chosen();
     refuse_what_shows_no_contact(choice);
     fit_.n = static_cast<int>(rows_.depth.size());
-    if (outside_ > 0)
-      fit_.notes.push_back(plural(outside_, "point") + " excluded by the limits of depth");
-    fit_.excluded += outside_;
+    leave_out(fit_, outside_, "outside the limits of depth");
     fit_.range_low = unit::mm.from_si(rows_.low);
     fit_.range_high = unit::mm.from_si(rows_.high);
     finish(choice);
@@ -74,12 +146,6 @@ class ContactFit {
   }
 
  private:
-  void leave_out(int count, const std::string& why) {
-    if (count == 0) return;
-    fit_.excluded += count;
-    fit_.notes.push_back(plural(count, "point") + " excluded: " + why);
-  }
-
   void take(std::span<const double> depth, std::span<const double> force) {
     std::vector<double> h, f;
     for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -87,30 +153,23 @@ class ContactFit {
       h.push_back(depth[i]);
       f.push_back(force[i]);
     }
-    leave_out(static_cast<int>(depth.size() - h.size()), "a number is missing or not finite");
+    leave_out(fit_, depth.size() - h.size(), "a number is missing or not finite");
     refuse_few(h.size());
     take_one_way(h, f);
     const auto [low, high] = std::minmax_element(h.begin(), h.end());
     if (*low == *high)
       throw InputError({}, "all points have the same depth; give a curve over depth");
-    for (const double each : f) scale_ = std::max(scale_, std::abs(each));
-    if (!(scale_ > 0.0)) scale_ = 1.0;
-    for (double& each : f) each /= scale_;
+    scale_ = scale_to_one(f);
     all_ = {h, f, *low, *high};
     rows_ = all_;
   }
 
-  void refuse_few(std::size_t usable) const {
-    if (usable >= 4) return;
-    throw InputError({}, "the model `" + fit_.name + "` needs at least 4 points, and " +
-                             std::to_string(usable) + (usable == 1 ? " is" : " are") +
-                             " usable; record more points");
-  }
+  void refuse_few(std::size_t usable) const { need_points(fit_.name, 4, usable); }
 
   void take_one_way(std::vector<double>& h, std::vector<double>& f) {
     const OneWay part = one_way(h, test_.way);
     const auto keep = [&](std::size_t from, std::size_t to, const char* why) {
-      leave_out(static_cast<int>(h.size() - (to - from)), why);
+      leave_out(fit_, h.size() - (to - from), why);
       for (std::vector<double>* each : {&h, &f})
         *each = {each->begin() + static_cast<std::ptrdiff_t>(from),
                  each->begin() + static_cast<std::ptrdiff_t>(to)};
@@ -220,7 +279,7 @@ class ContactFit {
       throw InputError({},
                        "no contact point fits the rows between the limits of depth; widen them");
     rows_ = std::move(best_rows);
-    outside_ = static_cast<int>(all_.depth.size() - rows_.depth.size());
+    outside_ = all_.depth.size() - rows_.depth.size();
     return *best;
   }
 
@@ -300,7 +359,7 @@ class ContactFit {
                               std::span<double> slopes) {
       const double contact = lead == 1 ? guess.contact : p[1] * range;
       for (std::size_t i = 0; i < values.size(); ++i) {
-        const UnitForce unit = law_.unit(rows_.depth[i] - contact);
+        const TipForce unit = law_.unit(rows_.depth[i] - contact);
         const double along = (rows_.depth[i] - rows_.low) / range;
         values[i] = p[0] * guess.factor * unit.force;
         if (count > lead) values[i] += p[lead];
@@ -335,7 +394,6 @@ class ContactFit {
                        {.name = "F_0", .unit = "N"},
                        {.name = "tilt", .unit = "N/mm"}};
     fitted(fit_.parameters);
-    for (std::size_t i = 0; i < count; ++i) fit_.parameters[i].initial = unknowns[i] * scale[i];
     settle(fit_, minimum, {rows_.force, scale_, scale, test_.residuals});
     if (fit_.termination == Termination::failed) return;
     describe(choice, minimum);
@@ -383,7 +441,7 @@ class ContactFit {
   PressRows all_;       // of the chosen way; forces divided by scale_
   PressRows rows_;      // those between `from` and `to`
   double scale_ = 0.0;  // N, largest magnitude
-  int outside_ = 0;
+  std::size_t outside_ = 0;
 };
 
 }  // namespace

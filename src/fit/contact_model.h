@@ -1,4 +1,6 @@
-// Fits a tip's force over its depth: the tissue's Young's modulus and the contact point.
+// Fits a tip's force over its depth: the tissue's Young's modulus and the contact point; with
+// adhesion, by JKR's and DMT's laws of a sphere; and on a viscoelastic half-space, the modulus as a
+// function of time.
 #pragma once
 
 #include <optional>
@@ -6,9 +8,9 @@
 
 #include "base/units.h"
 #include "contact/layer_integral.h"
-#include "fit/loading_part.h"
+#include "fit/contact_search.h"
+#include "fit/parts.h"
 #include "fit/regression.h"
-#include "fit/tip.h"
 
 namespace palpate::fit {
 
@@ -43,7 +45,7 @@ struct ContactTest {
 };
 
 // Fits F = E/(1 - nu^2) f(h - h_0) + F_0 + k (h - h_min) to `depth` (m) and `force` (N) of equal
-// size, where f is the law of the tip (tip.h) or of a paraboloid on a finite layer
+// size, where f is the law of the tip (contact_search.h) or of a paraboloid on a finite layer
 // (contact/layer.h), 0 before contact. Parameters: E in kPa, h_0 in mm and, if there is a
 // baseline, F_0 in N and k in N/mm; ranges in mm, rmse in N. `automatic` fits an offset where three
 // rows lie before contact, and a tilt where ten do. Of a curve that goes in and out, `way` is
@@ -55,5 +57,57 @@ struct ContactTest {
 // docs/theory.md [layer], [tips], [tip_sphere], [contact_point]
 [[nodiscard]] Fit fit_contact(std::span<const double> depth, std::span<const double> force,
                               const ContactTest& test);
+
+enum class Adhesion { by_tabor, jkr, dmt };
+
+// Force (N) of a sphere of radius R (m) on E* (Pa) with the work of adhesion w (J/m^2) at a depth
+// (m), and its derivatives. JKR's stable branch ends at a depth of -3 a_c^2 / R, where the contact
+// opens; beyond it the force stays that of the end, and so does DMT's at depths below 0.
+//   jkr  h = a^2/R - sqrt(2 pi a w / E*),  F = 4 E* a^3 / (3 R) - sqrt(8 pi w E* a^3)
+//                                      Johnson, Kendall & Roberts 1971, Proc. R. Soc. Lond. A 324
+//   dmt  F = 4/3 E* sqrt(R) h^(3/2) - 2 pi R w   Derjaguin, Muller & Toporov 1975, J. Colloid 53
+struct AdhesiveForce {
+  double force = 0.0;  // N
+  double by_modulus = 0.0, by_work = 0.0, by_depth = 0.0;
+};
+[[nodiscard]] AdhesiveForce adhesive_force(Adhesion law, double radius, double modulus, double work,
+                                           double depth);
+
+// mu = (R w^2 / (E*^2 z_0^3))^(1/3), z_0 (m) the distance of atoms at rest.  docs/theory.md [tabor]
+//                                                      Tabor 1977, J. Colloid Interface Sci. 58
+[[nodiscard]] double tabor_number(double radius, double modulus, double work, double distance);
+
+struct AdhesiveTest {
+  Adhesion law = Adhesion::by_tabor;
+  double distance = 0.3e-9;  // m, z_0
+};
+
+// Fits the way back of a curve of depth (m) and force (N), or its approach (test.way), with one
+// row of the pull-off: rows in contact follow the law, rows after it the baseline, which is an
+// offset where three rows are free (none, and a tilt, on request). Parameters: E in kPa, w in
+// mJ/m^2, h_0 in mm, F_0 in N, tilt in N/mm. `by_tabor` takes JKR above mu = 0.7, in the middle of
+// the transition from 0.1 to 5 on a logarithmic scale, and says so.  docs/theory.md [jkr], [tabor]
+// Throws InputError for a curve without a pull-off clear of its scatter, and like fit_contact().
+[[nodiscard]] Fit fit_adhesive(std::span<const double> depth, std::span<const double> force,
+                               const ContactTest& test, const AdhesiveTest& adhesion);
+
+// E(t) of the tissue after a step of strain, t in s.
+enum class Viscous {
+  power_law,  // E_1 (t / 1 s)^-beta
+  solid,      // E_inf + (E_0 - E_inf) e^(-t/tau), a standard linear solid
+};
+
+// Fits depth (m) and force (N) over ascending time (s) by Boltzmann's superposition,
+//   F(t) = 4 sqrt(R) / (3 (1-nu^2)) int_0^t1 E(t-s) d(h^(3/2))/ds ds,
+// where t1 = t while the contact grows (Lee and Radok 1960, J. Appl. Mech. 27), and on the way back
+// the earlier time of the same contact, int_t1^t E(t-s) dh/ds ds = 0 (Ting 1966, J. Appl. Mech.
+// 33). The approach is fitted, with `test.way` = all both ways. Parameters: E_1 (kPa) and beta, or
+// E_inf, E_0 (kPa) and tau (s); then h_0 in mm and F_0 in N where three rows lie before contact or
+// an offset is asked for. More than 400 rows are averaged to 400 for the history; the force between
+// these is linear. Throws InputError like fit_contact(), and for times that do not ascend.
+//                                                                            docs/theory.md [ting]
+[[nodiscard]] Fit fit_viscous(std::span<const double> time, std::span<const double> depth,
+                              std::span<const double> force, const ContactTest& test,
+                              Viscous model);
 
 }  // namespace palpate::fit

@@ -2,9 +2,12 @@
 #include "fit/prony.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "base/dense.h"
@@ -12,12 +15,48 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "fit/ceres_fit.h"
-#include "fit/nnls.h"
-#include "fit/separable.h"
-#include "fit/settle.h"
 
 namespace palpate::fit {
 namespace {
+
+struct Term {
+  double value, slope;
+};
+
+// e^(-t/tau), and d/d ln tau = t/tau e^(-t/tau)
+Term after_step(double t, double tau) {
+  const double left = std::exp(-t / tau);
+  return {left, t / tau * left};
+}
+
+Term after_ramp(double t, double tau, double ramp) {
+  if (t <= 0.0) return {0.0, 0.0};
+  const double since_start = std::exp(-t / tau);
+  if (t < ramp) {
+    const double value = -tau / ramp * std::expm1(-t / tau);
+    return {value, value - t / ramp * since_start};
+  }
+  const double since_end = std::exp(-(t - ramp) / tau);
+  // since_end - since_start = since_end (1 - e^(-ramp/tau)), without cancellation
+  const double value = -tau / ramp * since_end * std::expm1(-ramp / tau);
+  return {value, value + (t - ramp) / ramp * since_end - t / ramp * since_start};
+}
+
+// Least squares over the columns that are free; the others are 0.
+Eigen::VectorXd over_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                          const std::vector<char>& free) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index i = 0; i < a.cols(); ++i)
+    if (free[static_cast<std::size_t>(i)] != 0) columns.push_back(i);
+  Eigen::MatrixXd some(a.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    some.col(static_cast<Eigen::Index>(k)) = a.col(columns[k]);
+  const Eigen::VectorXd solved = dense::least_squares(some, b);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(a.cols());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all[columns[k]] = solved[static_cast<Eigen::Index>(k)];
+  return all;
+}
 
 struct Points {
   std::vector<double> x;   // minus x_origin, divided by x_scale
@@ -61,19 +100,13 @@ Points usable(std::span<const double> x, std::span<const double> y, const PronyS
   }
   fit.n = static_cast<int>(points.x.size());
   fit.excluded = static_cast<int>(x.size()) - fit.n;
-  if (fit.n < needed)
-    throw InputError({}, "the model `" + fit.name + "` needs at least " + std::to_string(needed) +
-                             " points for this number of terms, and " + std::to_string(fit.n) +
-                             (fit.n == 1 ? " is" : " are") +
-                             " usable; record more points, or give fewer `--terms`");
+  need_points(fit.name, as_index(needed), points.x.size(), " for this number of terms",
+              "; record more points, or give fewer `--terms`");
   if (fit.range_low == fit.range_high)
     throw InputError({}, "all points have the same x; give a curve over time");
   points.x_scale = fit.range_high - fit.range_low;
-  double largest = 0.0;
-  for (const double each : points.y) largest = std::max(largest, std::abs(each));
-  points.y_scale = largest > 0.0 ? largest : 1.0;
+  points.y_scale = scale_to_one(points.y);
   for (double& each : points.x) each /= points.x_scale;
-  for (double& each : points.y) each /= points.y_scale;
   points.history.ramp = series.history.ramp / points.x_scale;
   scale_history(points);
   std::vector<double> sorted = points.x;
@@ -274,6 +307,88 @@ std::string law_of(const PronySeries& series) {
 
 }  // namespace
 
+// Closed forms for steps and ramps, a recursion for histories that were measured.
+BasisColumn relaxing(std::span<const double> t, double tau, const LoadingHistory& history) {
+  BasisColumn column;
+  column.value.reserve(t.size());
+  column.slope.reserve(t.size());
+  if (history.samples.empty()) {
+    for (const double each : t) {
+      const Term term =
+          history.ramp > 0.0 ? after_ramp(each, tau, history.ramp) : after_step(each, tau);
+      column.value.push_back(term.value);
+      column.slope.push_back(term.slope);
+    }
+    return column;
+  }
+  // phi_i = phi_(i-1) e^(-d/tau) + r tau (1 - e^(-d/tau)), r the rate of the history in d
+  double value = history.samples.front();
+  double slope = 0.0;
+  column.value.push_back(value);
+  column.slope.push_back(slope);
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double d = t[i] - t[i - 1];
+    const double change = history.samples[i] - history.samples[i - 1];
+    if (d <= 0.0) {
+      value += change;
+    } else {
+      const double left = std::exp(-d / tau);
+      const double gain = -tau / d * std::expm1(-d / tau);  // of a ramp over d
+      slope = left * (slope + value * d / tau) + change * (gain - left);
+      value = left * value + change * gain;
+    }
+    column.value.push_back(value);
+    column.slope.push_back(slope);
+  }
+  return column;
+}
+
+std::vector<double> loading(std::span<const double> t, const LoadingHistory& history) {
+  if (!history.samples.empty()) return history.samples;
+  std::vector<double> values;
+  for (const double each : t)
+    values.push_back(history.ramp > 0.0 ? std::clamp(each / history.ramp, 0.0, 1.0) : 1.0);
+  return values;
+}
+
+// The rows are first reduced to as many as there are columns by a QR decomposition.
+std::optional<Eigen::VectorXd> nonnegative_least_squares(const Eigen::MatrixXd& given,
+                                                         const Eigen::VectorXd& target) {
+  const Eigen::Index n = given.cols();
+  const auto [q, a] = dense::qr(given);
+  const Eigen::VectorXd b = q.transpose() * target;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  std::vector<char> free(static_cast<std::size_t>(n), 0);
+  const double small = 1e-13 * a.colwise().norm().maxCoeff() * target.norm();
+  for (Eigen::Index change = 0; change <= 3 * n; ++change) {
+    // The gradient's largest component among the columns held at 0.
+    const Eigen::VectorXd gradient = a.transpose() * (b - a * x);
+    Eigen::Index next = -1;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (free[static_cast<std::size_t>(i)] == 0 && gradient[i] > small &&
+          (next < 0 || gradient[i] > gradient[next]))
+        next = i;
+    if (next < 0) return x;
+    free[static_cast<std::size_t>(next)] = 1;
+    // Back to the border as long as a free coefficient would become negative.
+    for (Eigen::Index inner = 0; inner <= n; ++inner) {
+      const Eigen::VectorXd wanted = over_free(a, b, free);
+      double step = 1.0;
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (free[static_cast<std::size_t>(i)] != 0 && wanted[i] <= 0.0)
+          step = std::min(step, x[i] / (x[i] - wanted[i]));
+      x += step * (wanted - x);
+      if (step >= 1.0) break;
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (free[static_cast<std::size_t>(i)] != 0 && x[i] <= 1e-15 * x.cwiseAbs().maxCoeff()) {
+          free[static_cast<std::size_t>(i)] = 0;
+          x[i] = 0.0;
+        }
+    }
+  }
+  return std::nullopt;
+}
+
 Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronySeries& series,
               const Options& options) {
   assert(x.size() == y.size() && series.terms >= 1 && series.terms <= most_terms);
@@ -328,12 +443,142 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
   std::vector<double> scale(count, points.y_scale);
   if (lead > 1) scale[1] /= points.x_scale;
   for (std::size_t i = lead + 1; i < count; i += 2) scale[i] = points.x_scale;
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool time = i > lead && (i - lead) % 2 == 1;
-    fit.parameters[i].initial = (time ? std::exp(start[i]) : start[i]) * scale[i];
-  }
   if (minimum.status != Minimum::Status::failed) finish_terms(minimum, lead);
   settle(fit, minimum, {points.y, points.y_scale, scale, options.residuals});
+  return fit;
+}
+
+namespace {
+
+struct NamedLaw {
+  const char* name;
+  const char* law;
+};
+constexpr std::array<NamedLaw, 3> fractional_laws{{
+    {"spring_pot", "y = c x^-beta / Gamma(1-beta), Blair 1947"},
+    {"spring_pot_creep", "y = J x^beta / Gamma(1+beta), Blair 1947"},
+    {"fractional_zener",
+     "y = y_inf + (y_0 - y_inf) E_beta(-(x/tau)^beta), Mittag-Leffler's function, Mainardi 2010"},
+}};
+
+double exponent_of(double logit) { return 1.0 / (1.0 + std::exp(-logit)); }
+
+// The parameters' units: a spring-pot's factor has a power of the time that depends on beta.
+std::vector<Estimate> parameters_of(Fractional model, const Options& options) {
+  const std::string& y = options.y_unit;
+  const std::string& x = options.x_unit;
+  const std::string power = x.empty() ? "" : x + "^beta";
+  const std::string each = y.empty() ? "1" : y;
+  if (model == Fractional::zener)
+    return {{.name = "y_inf", .unit = y},
+            {.name = "y_0", .unit = y},
+            {.name = "tau", .unit = x},
+            {.name = "beta"}};
+  if (model == Fractional::spring_pot)
+    return {{.name = "c",
+             .unit = power.empty() ? y
+                     : y.empty()   ? power
+                                   : y + " " + power},
+            {.name = "beta"}};
+  return {{.name = "J", .unit = power.empty() ? y : each + "/" + power}, {.name = "beta"}};
+}
+
+}  // namespace
+
+double mittag_leffler(double alpha, double z) {
+  assert(alpha > 0.0 && alpha <= 1.0 && z >= 0.0);
+  // f(1) = 1/(2 pi i) int e^s F(s) ds over s = mu (1 + i u)^2, with the trapezoidal rule of step h.
+  constexpr int half = 16;  // the error falls as e^(-2 pi N / 3)
+  constexpr double step = 3.0 / half;
+  constexpr double mu = std::numbers::pi * half / 12.0;
+  std::complex<double> sum = 0.0;
+  for (int k = 0; k < half; ++k) {  // symmetric in u: the midpoints of one side
+    const double u = step * (k + 0.5);
+    const std::complex<double> along(1.0, u);
+    const std::complex<double> s = mu * along * along;
+    // By real functions, whose bits are the same on every processor.
+    const double size = std::pow(mu * (1.0 + u * u), alpha);
+    const double angle = 2.0 * alpha * std::atan2(u, 1.0);
+    const std::complex<double> power(size * std::cos(angle), size * std::sin(angle));
+    const std::complex<double> turned(std::cos(s.imag()), std::sin(s.imag()));
+    sum += std::exp(s.real()) * turned * power / (s * (power + z)) * along;
+  }
+  return 2.0 * mu * step / std::numbers::pi * sum.real();
+}
+
+Fit fit_fractional(std::span<const double> x, std::span<const double> y, Fractional model,
+                   const Options& options) {
+  assert(x.size() == y.size());
+  Fit fit;
+  fit.name = fractional_laws[as_index(model)].name;
+  fit.law = fractional_laws[as_index(model)].law;
+  fit.x_origin = options.x_origin;
+  fit.parameters = parameters_of(model, options);
+  std::vector<double> times, values;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double t = x[i] - options.x_origin;
+    if (!std::isfinite(t) || !std::isfinite(y[i]) || !(t > 0.0)) continue;
+    times.push_back(t);
+    values.push_back(y[i]);
+    fit.range_low = std::fmin(fit.range_low, x[i]);
+    fit.range_high = std::fmax(fit.range_high, x[i]);
+  }
+  fit.n = static_cast<int>(times.size());
+  fit.excluded = static_cast<int>(x.size()) - fit.n;
+  const std::size_t count = fit.parameters.size();
+  need_points(fit.name, count + 1, times.size(), " after the step",
+              "; record more points, or give `--origin`");
+  const double y_scale = scale_to_one(values);
+  const double length = *std::max_element(times.begin(), times.end());
+  for (double& each : times) each /= length;
+
+  Separable curve;  // its shapes: the logarithm of tau, and the logit of beta
+  const bool zener = model == Fractional::zener;
+  curve.linear = zener ? 2 : 1;
+  if (zener) {
+    for (const double log : {-6.0, -4.0, -2.5, -1.0, 0.5})
+      for (const double logit : {-2.0, -1.0, 0.0, 1.0, 2.5}) curve.starts.push_back({log, logit});
+    curve.columns = [&](std::span<const double> s, std::span<double> phi) {
+      const double tau = std::exp(s[0]);
+      const double beta = exponent_of(s[1]);
+      if (!(beta > 1e-3) || !std::isfinite(tau) || !(tau > 0.0)) return false;
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        const double left = mittag_leffler(beta, std::pow(times[i] / tau, beta));
+        phi[2 * i] = 1.0 - left;
+        phi[2 * i + 1] = left;
+      }
+      return true;
+    };
+  } else {
+    const double sign = model == Fractional::spring_pot ? -1.0 : 1.0;
+    for (double logit = -4.0; logit < 4.1; logit += 0.5) curve.starts.push_back({logit});
+    curve.columns = [&, sign](std::span<const double> s, std::span<double> phi) {
+      const double beta = exponent_of(s[0]);
+      const double gamma = std::tgamma(1.0 + sign * beta);
+      for (std::size_t i = 0; i < times.size(); ++i)
+        phi[i] = std::pow(times[i], sign * beta) / gamma;
+      return true;
+    };
+  }
+  Minimum minimum = minimise(values, curve, options.max_iterations);
+  std::vector<double> scale(count, 1.0);
+  if (minimum.status != Minimum::Status::failed) {
+    const double beta = exponent_of(minimum.parameters.back());
+    replace_parameter(minimum, count - 1, beta, beta * (1.0 - beta));
+    if (zener) {
+      const double tau = std::exp(minimum.parameters[2]);
+      replace_parameter(minimum, 2, tau, tau);
+      scale = {y_scale, y_scale, length, 1.0};
+    } else {
+      // c of y = c (x/L)^-beta is c L^beta of x^-beta, which depends on beta too.
+      const double sign = model == Fractional::spring_pot ? 1.0 : -1.0;
+      const double factor = std::pow(length, sign * beta);
+      const double by_beta = sign * std::log(length) * minimum.parameters[0];
+      add_to_parameter(minimum, 0, 1, by_beta);
+      scale = {y_scale * factor, 1.0};
+    }
+  }
+  settle(fit, minimum, {values, y_scale, scale, options.residuals});
   return fit;
 }
 

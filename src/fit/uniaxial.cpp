@@ -14,10 +14,8 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "fit/ceres_fit.h"
-#include "fit/contact_warnings.h"
-#include "fit/loading_part.h"
-#include "fit/separable.h"
-#include "fit/settle.h"
+#include "fit/parts.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {
@@ -105,19 +103,9 @@ class UniaxialFit {
   }
 
  private:
-  void leave_out(std::size_t count, const std::string& why) {
-    if (count == 0) return;
-    fit_.excluded += static_cast<int>(count);
-    fit_.notes.push_back(std::to_string(count) + (count == 1 ? " point is" : " points are") +
-                         " excluded: " + why);
-  }
-
   void refuse_few() const {
-    if (strain_.size() >= 4) return;
-    throw InputError({}, "the model `" + fit_.name + "` needs at least 4 points, and " +
-                             std::to_string(strain_.size()) +
-                             (strain_.size() == 1 ? " is" : " are") +
-                             " usable; widen `--from` and `--to`, or record more points");
+    need_points(fit_.name, 4, strain_.size(), "",
+                "; widen `--from` and `--to`, or record more points");
   }
 
   void take(std::span<const double> strain, std::span<const double> stress) {
@@ -126,7 +114,7 @@ class UniaxialFit {
       strain_.push_back(strain[i]);
       stress_.push_back(stress[i]);
     }
-    leave_out(strain.size() - strain_.size(), "a number is missing or not finite");
+    leave_out(fit_, strain.size() - strain_.size(), "a number is missing or not finite");
     refuse_few();
   }
 
@@ -143,7 +131,7 @@ class UniaxialFit {
         const std::size_t size = strain_.size();
         const bool tension = loading_ != UniaxialTest::Loading::compression;
         keep([&](std::size_t i) { return tension ? strain_[i] >= 0.0 : strain_[i] <= 0.0; });
-        leave_out(size - strain_.size(),
+        leave_out(fit_, size - strain_.size(),
                   tension ? "in compression; `--loading compression` fits it" : "in tension");
         refuse_few();
         return turn_to_positive();
@@ -236,8 +224,9 @@ class UniaxialFit {
     if (cycles > 1)
       fit_.notes.push_back("loading " + std::to_string(std::max(test_.cycle, 1)) + " of " +
                            std::to_string(cycles) + " is fitted");
-    leave_out(size - strain_.size(), cycles > 1 ? "in other loadings and on the way back"
-                                                : "the way back from the largest strain");
+    leave_out(fit_, size - strain_.size(),
+              cycles > 1 ? "in other loadings and on the way back"
+                         : "the way back from the largest strain");
     refuse_few();
   }
 
@@ -253,7 +242,7 @@ class UniaxialFit {
         }
     const std::size_t size = strain_.size();
     keep([&](std::size_t i) { return away[i] != 0 || !out[strain_[i] > 0.0 ? 1 : 0]; });
-    leave_out(size - strain_.size(), "on the way back to zero strain");
+    leave_out(fit_, size - strain_.size(), "on the way back to zero strain");
     refuse_few();
   }
 
@@ -269,7 +258,7 @@ class UniaxialFit {
     if (const Limit limit = limit_of(stress_); limit.from < limit.to) {
       const std::size_t size = stress_.size();
       keep([&](std::size_t i) { return i < limit.from; });
-      leave_out(size - limit.from,
+      leave_out(fit_, size - limit.from,
                 "the stress stays at its largest value, as at the limit of a sensor");
       refuse_few();
     }
@@ -285,7 +274,7 @@ class UniaxialFit {
                          percent_text(fall_share));
     const std::size_t size = strain_.size();
     keep([&](std::size_t i) { return i < rows; });
-    leave_out(size - strain_.size(), "after the largest stress");
+    leave_out(fit_, size - strain_.size(), "after the largest stress");
     refuse_few();
   }
 
@@ -295,7 +284,7 @@ class UniaxialFit {
     first_stress_ = stress_.front();
     const std::size_t size = strain_.size();
     keep([&](std::size_t i) { return (both_ ? std::abs(strain_[i]) : strain_[i]) >= low - 1e-12; });
-    leave_out(outside_ + size - strain_.size(), "outside `--from` and `--to`");
+    leave_out(fit_, outside_ + size - strain_.size(), "outside `--from` and `--to`");
     refuse_few();
     for (const double each : stress_) scale_ = std::max(scale_, std::abs(each));
     if (!(scale_ > 0.0))
@@ -358,7 +347,7 @@ class UniaxialFit {
     for (double& each : stress_) each -= found->stress;
     fit_.notes.push_back("a toe up to a strain of " + rounded_text(found->strain) +
                          " is taken off: strain and stress count from there");
-    leave_out(size - strain_.size(), "in the toe");
+    leave_out(fit_, size - strain_.size(), "in the toe");
     refuse_few();
   }
 
@@ -429,10 +418,7 @@ class UniaxialFit {
     const bool powers = test_.model == Model::ogden || test_.model == Model::ogden3;
     const std::size_t terms = three ? 3 : 1;
     const std::size_t count = powers ? 2 * terms : terms;
-    if (strain_.size() < count + 2)
-      throw InputError({}, "the model `" + fit_.name + "` needs at least " +
-                               std::to_string(count + 2) + " points, and " +
-                               std::to_string(strain_.size()) + " are usable; record more points");
+    need_points(fit_.name, count + 2, strain_.size());
     Separable curve;
     curve.linear = terms;
     curve.starts = starts(terms, powers);

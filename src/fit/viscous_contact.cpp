@@ -1,5 +1,5 @@
 // The history is linear between its knots, and the integrals of E(t) over each are in closed form.
-#include "fit/viscous_contact.h"
+#include "fit/contact_model.h"
 
 #include <algorithm>
 #include <cassert>
@@ -10,11 +10,9 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "fit/ceres_fit.h"
 #include "fit/contact_search.h"
-#include "fit/contact_warnings.h"
-#include "fit/separable.h"
-#include "fit/settle.h"
-#include "fit/tip.h"
+#include "fit/residuals.h"
 
 namespace palpate::fit {
 namespace {
@@ -123,7 +121,7 @@ class ViscousFit {
     take(time, depth, force);
     const PressRows rows{depth_, force_, 0.0, 1.0};
     const UnitLaw law = [](double h) {
-      return UnitForce{h > 0.0 ? h * std::sqrt(h) : 0.0, h > 0.0 ? 1.5 * std::sqrt(h) : 0.0};
+      return TipForce{h > 0.0 ? h * std::sqrt(h) : 0.0, h > 0.0 ? 1.5 * std::sqrt(h) : 0.0};
     };
     const auto guess =
         search_contact(law,
@@ -189,16 +187,13 @@ class ViscousFit {
       depth_.push_back(depth[i]);
       force_.push_back(force[i]);
     }
-    if (time_.size() < 10)
-      throw InputError({}, "the model `" + fit_.name + "` needs at least 10 points, and " +
-                               std::to_string(time_.size()) + " are usable; record more points");
+    need_points(fit_.name, 10, time_.size());
     const OneWay part = one_way(depth_, test_.way);
-    if (part.to < time_.size())
-      fit_.notes.push_back(std::to_string(time_.size() - part.to) +
-                           " points are excluded: the way back from the deepest row; `--segment "
-                           "all` fits both ways, by Ting's contact");
-    for (std::vector<double>* each : {&time_, &depth_, &force_}) each->resize(part.to);
     fit_.excluded = static_cast<int>(time.size() - time_.size());
+    leave_out(
+        fit_, time_.size() - part.to,
+        "the way back from the deepest row; `--segment all` fits both ways, by Ting's contact");
+    for (std::vector<double>* each : {&time_, &depth_, &force_}) each->resize(part.to);
     const auto [low, high] = std::minmax_element(depth_.begin(), depth_.end());
     low_ = *low;
     range_ = *high - *low;
@@ -305,10 +300,7 @@ class ViscousFit {
                        "name other columns, or give `--compression auto`");
     const double contact = (minimum.parameters[moduli] * range_);
     const double deepest = range_ - contact;
-    const Tip paraboloid{Tip::Kind::paraboloid, test_.radius, 0.0};
-    const Tip sphere{Tip::Kind::sphere, test_.radius, 0.0};
-    const double error =
-        tip_force(paraboloid, deepest).force / tip_force(sphere, deepest).force - 1.0;
+    const double error = error_of_hertz(deepest, test_.radius);
     if (error > 0.02)
       fit_.warnings.push_back("at the largest depth Hertz's law of a paraboloid is " +
                               percent_text(error) +

@@ -20,20 +20,6 @@ std::string quantity_or_number(double si, const std::optional<Unit>& unit) {
   palpate::refuse("`--given " + text + "` " + why);
 }
 
-double number_of(const std::string& text, const std::string& written,
-                 const std::optional<Unit>& unit) {
-  if (!unit) {
-    const auto number = whole_number(written);
-    if (!number) refuse_given(text, "wants pure numbers, got `" + written + "`");
-    return *number;
-  }
-  try {
-    return parse_quantity(written, *unit);
-  } catch (const std::invalid_argument& wrong) {
-    refuse_given(text, wrong.what());
-  }
-}
-
 Given read_given(const std::string& text, const std::vector<scenario::NumericKey>& keys) {
   const std::string remedy = "is written `KEY=VALUE +- SD`, as `finger.radius=11 mm +- 0.2 mm`";
   const std::size_t equals = text.find('=');
@@ -54,8 +40,12 @@ Given read_given(const std::string& text, const std::vector<scenario::NumericKey
                                  : std::string("; `palpate manual` lists the keys")));
   }
   Given given{key, known->unit, 0.0, 0.0};
-  given.value = number_of(text, trimmed(text.substr(equals + 1, sign - equals - 1)), known->unit);
-  given.deviation = number_of(text, trimmed(text.substr(sign + width)), known->unit);
+  try {
+    given.value = number_in(trimmed(text.substr(equals + 1, sign - equals - 1)), known->unit);
+    given.deviation = number_in(trimmed(text.substr(sign + width)), known->unit);
+  } catch (const std::invalid_argument& wrong) {
+    refuse_given(text, wrong.what());
+  }
   if (!(given.deviation > 0.0)) refuse_given(text, "wants a deviation above 0");
   for (const double end : {given.value - given.deviation, given.value + given.deviation})
     if (!known->range.holds(end))

@@ -12,16 +12,12 @@
 #include "base/numerics.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
-#include "fit/correlated.h"
-#include "fit/residual_tests.h"
-#include "fit/step_origin.h"
-#include "identify/box_errors.h"
-#include "identify/box_profile.h"
-#include "identify/fixed_model.h"
-#include "identify/lengthen.h"
+#include "fit/parts.h"
+#include "fit/residuals.h"
+#include "identify/box_search.h"
 #include "identify/prepare_curve.h"
-#include "identify/search_starts.h"
-#include "identify/warnings.h"
+#include "identify/scenario_curve.h"
+#include "identify/tables.h"
 #include "scenario/integrators.h"
 
 namespace palpate::identify {
@@ -31,15 +27,14 @@ constexpr double edge = 1e-6;  // of the box; a best fit this close to a bound c
 constexpr double high_correlation = 0.95;
 constexpr double disagreement = 0.2;  // of an interval's half width
 
+Eigen::Index as_signed(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
 double median_spacing(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   std::vector<double> steps;
   for (std::size_t i = 1; i < x.size(); ++i)
     if (x[i] > x[i - 1]) steps.push_back(x[i] - x[i - 1]);
-  if (steps.empty()) return 0.0;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                   steps.end());
-  return steps[steps.size() / 2];
+  return steps.empty() ? 0.0 : fit::median(std::move(steps));
 }
 
 // One pair of data and scenario within a search.
@@ -48,7 +43,6 @@ struct Part {
   std::vector<Unknown> unknowns;   // those of this pair
   std::vector<std::size_t> index;  // of each, among all unknowns
   std::unique_ptr<ScenarioCurve> curve;
-  std::optional<ClosedCurve> closed;
   std::size_t from = 0, to = 0;  // its points among all
   double rows_each = 1.0;
   DefaultBody body;
@@ -61,10 +55,7 @@ struct Part {
     return some;
   }
   bool values(std::span<const double> all, std::span<double> out) {
-    const std::vector<double> u = own(all);
-    if (!closed) return curve->evaluate(u, out);
-    closed::values(*closed, u.data(), out.data());
-    return true;
+    return curve->evaluate(own(all), out);
   }
 };
 
@@ -135,10 +126,7 @@ class Search {
     found.measured = std::move(prepared.measured);
     part.rows_each = prepared.rows_each;
     part.curve = std::move(prepared.curve);
-    // A model that the scenario names is run: the formula of a uniform test only approximates it.
-    part.closed = part.curve->closed();
-    if (part.closed && found.given && found.kind != CurveKind::force_travel) part.closed.reset();
-    found.closed_form = part.closed.has_value();
+    found.closed_form = part.curve->has_formula();
     part.from = found_.x.size();
     found_.x.insert(found_.x.end(), found.x.begin(), found.x.end());
     found_.measured.insert(found_.measured.end(), found.measured.begin(), found.measured.end());
@@ -160,13 +148,10 @@ class Search {
     }
   }
 
+  void take_first() { static_cast<CurveFit&>(found_) = parts_.front().found; }
+
   void make_problem() {
-    const Identification& first = parts_.front().found;
-    found_.kind = first.kind;
-    found_.given = first.given;
-    found_.taken = first.taken;
-    found_.worst_error = first.worst_error;
-    found_.closed_form = first.closed_form;
+    take_first();
     if (joint()) weigh_pairs();
     for (const Part& part : parts_)
       for (const std::string& text : part.found.notes) note(part, text);
@@ -179,7 +164,7 @@ class Search {
                part.values(u, values.subspan(part.from, part.to - part.from));
       });
     };
-    if (!joint() && parts_.front().closed) problem_.closed = &*parts_.front().closed;
+    problem_.exact = !joint() && found_.closed_form;
     problem_.measured = found_.measured;
     problem_.weights = weights_;
   }
@@ -305,7 +290,7 @@ class Search {
         part.found.predicted_error = predicted_error(at);
       part.body = default_body(*part.curve, *part.family, estimates_of(part));
     }
-    found_.predicted_error = parts_.front().found.predicted_error;
+    take_first();
   }
 
   [[nodiscard]] std::vector<double> estimates_of(const Part& part) const {
@@ -314,24 +299,29 @@ class Search {
     return values;
   }
 
+  // J^T (F w) of the rows of a pair, and sum (F w)^2, where F is its curve and w the weights.
+  [[nodiscard]] std::pair<Eigen::VectorXd, double> changes_of(const Part& part) const {
+    const std::size_t n = unknowns_.size();
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(as_signed(n));
+    double size = 1e-300;
+    for (std::size_t row = part.from; row < part.to; ++row) {
+      const double weighted = found_.model[row] * weights_[row];
+      along += weighted * Eigen::Map<const Eigen::VectorXd>(&best_.jacobian[row * n], as_signed(n));
+      size += weighted * weighted;
+    }
+    return {along, size};
+  }
+
   // Whether the pairs change by more than the stated errors of their models along the direction of
   // unknowns i and j that changes them least: a_k = sum J F w / sum (F w)^2, the relative change of
   // the curve of pair k as a whole. One pair has such a direction always.
   //                                                                     docs/theory.md [told_apart]
   [[nodiscard]] bool told_apart(std::size_t i, std::size_t j) const {
-    const std::size_t n = unknowns_.size();
     double ii = 0.0, ij = 0.0, jj = 0.0;
     std::vector<std::array<double, 2>> changes;
     for (const Part& part : parts_) {
-      std::array<double, 2> change{};
-      double size = 0.0;
-      for (std::size_t row = part.from; row < part.to; ++row) {
-        const double weighted = found_.model[row] * weights_[row];
-        change[0] += best_.jacobian[row * n + i] * weighted;
-        change[1] += best_.jacobian[row * n + j] * weighted;
-        size += weighted * weighted;
-      }
-      for (double& each : change) each /= std::max(size, 1e-300);
+      const auto [along, size] = changes_of(part);
+      const std::array change{along[as_signed(i)] / size, along[as_signed(j)] / size};
       ii += change[0] * change[0];
       ij += change[0] * change[1];
       jj += change[1] * change[1];
@@ -520,10 +510,10 @@ class Search {
         start[contact] = std::clamp(
             unknowns_[contact].inverse(found_.unknowns[contact].estimate + shift), 0.0, 1.0);
       else
-        shift_points(parts_.front(), shift);
+        parts_.front().curve->set_shift(shift);
       const BoxMinimum moved = minimise_in_box(problem_, start, held, Want::squares);
       StopScope::end_if_stopped();
-      if (contact == n) shift_points(parts_.front(), 0.0);
+      if (contact == n) parts_.front().curve->set_shift(0.0);
       found_.evaluations += moved.evaluations;
       if (!moved.found) continue;
       for (std::size_t i = 0; i < n; ++i) {
@@ -542,9 +532,9 @@ class Search {
       std::vector<double> least(unknowns_.size(), 0.0);
       std::vector<double> most = least;
       for (const double start : pairs_[k].measured->starts) {
-        shift_points(parts_[k], start);
+        parts_[k].curve->set_shift(start);
         const BoxMinimum moved = minimise_in_box(problem_, best_.u, {}, Want::squares);
-        shift_points(parts_[k], 0.0);
+        parts_[k].curve->set_shift(0.0);
         StopScope::end_if_stopped();
         found_.evaluations += moved.evaluations;
         for (std::size_t i = 0; i < least.size() && moved.found; ++i) {
@@ -567,13 +557,6 @@ class Search {
     for (auto* high : {&one.ci95_high, &one.profile_high}) move(*high, by_high);
   }
 
-  void shift_points(Part& part, double shift) {
-    part.curve->set_shift(shift);
-    if (part.closed)
-      for (std::size_t i = 0; i < part.closed->x.size(); ++i)
-        part.closed->x[i] = found_.x[part.from + i] - shift;
-  }
-
   void conclude() {
     std::vector<double> weighted;
     for (std::size_t i = 0; i < found_.x.size(); ++i)
@@ -584,15 +567,11 @@ class Search {
                    (options_.noise == Noise::constant && !joint() ? range : 1.0);
     found_.threshold = t_ * t_;
     found_.durbin_watson = fit::durbin_watson(weighted);
-    found_.runs_z = fit::runs_z(weighted);
     if (options_.model_error) widen_by_model();
     widen_along_the_valley();
     for (Part& part : parts_) conclude_part(part);
-    found_.rmse = first.found.rmse;
-    found_.r2 = first.found.r2;
+    take_first();
     for (const Part& part : parts_) found_.r2 = std::min(found_.r2, part.found.r2);
-    found_.deep_effect = first.found.deep_effect;
-    found_.scenario = first.found.scenario;
     if (joint())
       for (const Part& part : parts_) found_.pairs.push_back(part.found);
     found_.warnings =
@@ -613,18 +592,11 @@ class Search {
                                  all.begin() + static_cast<std::ptrdiff_t>(part.to));
     };
     found.model = slice(found_.model);
-    const auto n = static_cast<double>(found.x.size());
-    double mean = 0.0;
-    for (const double y : found.measured) mean += y / n;
     double squares = 0.0;
-    double total = 0.0;
-    for (std::size_t i = 0; i < found.x.size(); ++i) {
-      const double residual = found.measured[i] - found.model[i];
-      squares += residual * residual;
-      total += (found.measured[i] - mean) * (found.measured[i] - mean);
-    }
-    found.rmse = std::sqrt(squares / n);
-    found.r2 = 1.0 - squares / total;
+    for (std::size_t i = 0; i < found.x.size(); ++i)
+      squares += (found.measured[i] - found.model[i]) * (found.measured[i] - found.model[i]);
+    found.rmse = std::sqrt(squares / static_cast<double>(found.x.size()));
+    found.r2 = fit::r_squared(found.measured, squares);
     found.unknowns = part.own(std::span<const Identified>(found_.unknowns));
     const std::vector<double> values = estimates_of(part);
     if (!part.body.text.empty()) note(part, part.body.text);
@@ -646,23 +618,18 @@ class Search {
   //                                                                  docs/theory.md [model_error]
   void widen_by_model() {
     const std::size_t n = unknowns_.size();
+    const Eigen::Map<const Eigen::MatrixXd> of_one(errors_.of_one.data(), as_signed(n),
+                                                   as_signed(n));
     std::vector<double> moved(n, 0.0);  // by every pair, whose errors may differ in sign
     std::vector<double> combined(found_.combinations.size(), 0.0);
     for (const Part& part : parts_) {
       const double error = part.found.predicted_error.value_or(0.0) + std::abs(part.body.change);
-      std::vector<double> product(n, 0.0);
-      for (std::size_t row = part.from; row < part.to; ++row)
-        for (std::size_t i = 0; i < n; ++i)
-          product[i] += best_.jacobian[row * n + i] * error * found_.model[row] * weights_[row];
-      std::vector<double> change(n, 0.0);
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) change[i] += errors_.of_one[i * n + j] * product[j];
-        moved[i] += std::abs(change[i]);
-      }
+      const Eigen::VectorXd change = error * of_one * changes_of(part).first;
+      for (std::size_t i = 0; i < n; ++i) moved[i] += std::abs(change[as_signed(i)]);
       for (std::size_t k = 0; k < combined.size(); ++k) {
-        double along = 0.0;
-        for (std::size_t i = 0; i < n; ++i) along += found_.combinations[k].gradient[i] * change[i];
-        combined[k] += std::abs(along);
+        const Eigen::Map<const Eigen::VectorXd> gradient(found_.combinations[k].gradient.data(),
+                                                         as_signed(n));
+        combined[k] += std::abs(gradient.dot(change));
       }
     }
     for (std::size_t k = 0; k < combined.size(); ++k) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "identify/box_search.h"
 #include "identify/scenario_curve.h"
 
 namespace palpate::identify {
@@ -66,11 +65,8 @@ struct GivenPart {
   std::vector<double> deviations;     // one per unknown, SI
 };
 
-// `pairs` is empty for one measurement. For several, each has its own curve, model and scenario
-// there, x, measured and model are those of all pairs one after the other, and what belongs to a
-// single curve (kind, scenario, model, contact_shift) is that of the first.
-struct Identification {
-  std::vector<Identification> pairs;
+// What belongs to a single curve.
+struct CurveFit {
   CurveKind kind = CurveKind::force_travel;
   scenario::Scenario scenario;  // whole loading history, every `auto` resolved, with the estimates
   scenario::Model taken = scenario::Model::hertz;
@@ -78,21 +74,27 @@ struct Identification {
   std::optional<double> predicted_error;  // estimated relative error of the model at the estimates
   double worst_error = 0.0;               // the largest estimate over the ranges
   bool closed_form = false;
+  double rmse = 0.0;                  // SI
+  double r2 = 0.0;                    // docs/theory.md [errors]; of several pairs the smallest
+  std::optional<double> deep_effect;  // relative change of the force by the deep-press factor
+};
+
+// `pairs` is empty for one measurement. For several, each has its own curve, model and scenario
+// there, x, measured and model are those of all pairs one after the other, and what belongs to a
+// single curve (also contact_shift) is that of the first.
+struct Identification : CurveFit {
+  std::vector<Identification> pairs;
   std::vector<Identified> unknowns;
   std::vector<Combination> combinations;
   std::vector<double> correlation;         // row by row; NaN for unknowns that are not separately
                                            // identifiable or at a bound
   std::vector<double> x, measured, model;  // SI, of the points used
   std::vector<ProfilePoint> profile;
-  double threshold = 0.0;  // of their `delta`, at the ends of the 95 % intervals
-  double rmse = 0.0;       // SI
-  double r2 = 0.0;         // docs/theory.md [errors]
-  double noise = 0.0;      // standard deviation, SI; relative noise: a ratio
-  double rho = 0.0;        // correlation of neighbouring residuals; 0 where taken as independent
-  double effective_size = 0.0;        // independent points of the same worth
-  std::optional<double> deep_effect;  // relative change of the force by the deep-press factor
+  double threshold = 0.0;       // of their `delta`, at the ends of the 95 % intervals
+  double noise = 0.0;           // standard deviation, SI; relative noise: a ratio
+  double rho = 0.0;             // correlation of neighbouring residuals; 0: taken as independent
+  double effective_size = 0.0;  // independent points of the same worth
   double durbin_watson = 2.0;
-  double runs_z = 0.0;
   double contact_shift = 0.0;         // SI of x; moves the contact point for moved_down, moved_up
   int excluded = 0;                   // measured points that were not used
   int evaluations = 0;                // of the model

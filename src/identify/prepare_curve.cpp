@@ -6,11 +6,10 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "fit/loading_part.h"
-#include "identify/averaged.h"
-#include "identify/fixed_model.h"
-#include "identify/lengthen.h"
-#include "identify/search_starts.h"
+#include "fit/parts.h"
+#include "fit/regression.h"
+#include "identify/box_search.h"
+#include "identify/scenario_curve.h"
 
 namespace palpate::identify {
 namespace {
@@ -107,8 +106,7 @@ class Preparation {
   void note_excluded(int points, const std::string& why) {
     if (points == 0) return;
     found_.excluded += points;
-    found_.notes.push_back(std::to_string(points) + (points == 1 ? " point is" : " points are") +
-                           " excluded: " + why);
+    found_.notes.push_back(fit::excluded_text(as_index(points), why));
   }
 
   // Takes the points up to the end of the loading history, which is run at the first of the
@@ -240,6 +238,63 @@ class Preparation {
 PreparedCurve prepare_curve(const Measurement& measured, const scenario::Family& family,
                             const std::vector<Unknown>& unknowns, Noise noise) {
   return Preparation(measured, family, unknowns).all(noise);
+}
+
+// Blocks are halved where the curve bends within them.
+
+namespace {
+
+class Blocks {
+ public:
+  Blocks(const std::vector<double>& x, const std::vector<double>& y) : x_(x), y_(y) {
+    const auto [low, high] = std::minmax_element(y.begin(), y.end());
+    least_ = 1e-4 * (*high - *low);
+    noise_ = fit::noise_of(y);
+    constexpr std::size_t count = 1500;
+    for (std::size_t k = 0; k < count; ++k) add(y.size() * k / count, y.size() * (k + 1) / count);
+  }
+
+  AveragedRows found;
+
+ private:
+  void add(std::size_t from, std::size_t to) {
+    const std::size_t size = to - from;
+    if (size >= 2 && bends(from, to)) {
+      add(from, from + size / 2);
+      add(from + size / 2, to);
+      return;
+    }
+    found.x.push_back(mean(x_, from, to));
+    found.y.push_back(mean(y_, from, to));
+    found.count.push_back(static_cast<double>(size));
+  }
+
+  [[nodiscard]] bool bends(std::size_t from, std::size_t to) const {
+    const std::size_t size = to - from;
+    if (size < 4) return std::abs(y_[to - 1] - y_[from]) > std::max(least_, 6.0 * noise_);
+    const std::size_t a = from + size / 4;
+    const std::size_t b = to - size / 4;
+    const double outer = 0.5 * (mean(y_, from, a) + mean(y_, b, to));
+    const double error = noise_ * std::sqrt(4.0 / static_cast<double>(size));
+    return std::abs(mean(y_, a, b) - outer) > std::max(least_, 4.0 * error);
+  }
+
+  static double mean(const std::vector<double>& values, std::size_t from, std::size_t to) {
+    double sum = 0.0;
+    for (std::size_t i = from; i < to; ++i) sum += values[i];
+    return sum / static_cast<double>(to - from);
+  }
+
+  const std::vector<double>& x_;
+  const std::vector<double>& y_;
+  double least_ = 0.0;
+  double noise_ = 0.0;
+};
+
+}  // namespace
+
+AveragedRows averaged(const std::vector<double>& x, const std::vector<double>& y) {
+  return std::move(Blocks(x, y).found);
 }
 
 }  // namespace palpate::identify

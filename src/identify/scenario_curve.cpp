@@ -1,19 +1,23 @@
-// Runs a scenario and interpolates its rows to one curve.
+// Runs a scenario, with one model for a whole search, and interpolates its rows to one curve.
 #include "identify/scenario_curve.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
 
 #include "base/error.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
-#include "identify/lengthen.h"
+#include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scenario/integrators.h"
 #include "scene/scene.h"
+#include "scene/specimen_shape.h"
 
 namespace palpate::identify {
 namespace {
@@ -37,7 +41,63 @@ bool says(const std::string& name, std::initializer_list<const char*> words) {
 double even(double force) { return std::copysign(std::cbrt(force * force), force); }
 double uneven(double root) { return std::copysign(std::sqrt(std::abs(root * root * root)), root); }
 
+// F = 4/3 E* sqrt(R) h^(3/2), 1/E* = lambda_1 + (1 - nu^2) / E, h = x - contact point
+//                                             Chen 2007 eq. (2); docs/theory.md [modulus], [radius]
+double hertz_press(const ClosedCurve& curve, const ClosedCurve::Parameters& p, double x) {
+  const double depth = x - p[ClosedCurve::contact_point];
+  if (!(depth > 0.0)) return p[ClosedCurve::force_offset];
+  const double nu = p[ClosedCurve::poisson];
+  const double modulus =
+      1.0 / (curve.finger_compliance + (1.0 - nu * nu) / p[ClosedCurve::modulus]);
+  return 4.0 / 3.0 * modulus * std::sqrt(curve.radius) * depth * std::sqrt(depth) +
+         p[ClosedCurve::force_offset];
+}
+
+// Creep compliance J(t), 1/Pa, of Kelvin-Voigt with tau = eta / E: (1 - e^(-t/tau)) / E; of a
+// standard linear solid with the moduli E (relaxed) and r E (instantaneous):
+// 1/E - (1/E - 1/(r E)) e^(-t/tau_c), tau_c = r tau
+//                                         docs/theory.md [kelvin_voigt], [branches], [fit_creep]
+double creep_compliance(bool voigt, const ClosedCurve::Parameters& p, double t) {
+  const double r = p[ClosedCurve::ratio];
+  const double left = voigt ? std::exp(-t / p[ClosedCurve::time])
+                            : (1.0 - 1.0 / r) * std::exp(-t / (r * p[ClosedCurve::time]));
+  return (1.0 - left) / p[ClosedCurve::modulus];
+}
+
+// The stress under a strain that grows for `load_time` and stays: Kelvin-Voigt
+// sigma = E (strain + tau strain'), a standard linear solid by superposition of its relaxation,
+// elastic where r = 1.       docs/theory.md [kelvin_voigt], [branches], [fit_relaxation]
+double compression(bool voigt, const ClosedCurve& curve, const ClosedCurve::Parameters& p,
+                   double x) {
+  const double t = curve.over_strain ? x / curve.load * curve.load_time : x;
+  const double rate = curve.load / curve.load_time;
+  const double tau = p[ClosedCurve::time];
+  const double grown = std::min(t, curve.load_time);
+  if (voigt) return p[ClosedCurve::modulus] * rate * (t < curve.load_time ? t + tau : grown);
+  return p[ClosedCurve::modulus] * rate *
+         (grown +
+          (p[ClosedCurve::ratio] - 1.0) * tau * (std::exp((grown - t) / tau) - std::exp(-t / tau)));
+}
+
 }  // namespace
+
+double ClosedCurve::value(const Parameters& p, double x) const {
+  switch (form) {
+    case Form::hertz_press: return hertz_press(*this, p, x);
+    case Form::voigt_creep:
+    case Form::solid_creep: {
+      // Unloading adds the opposite stress.          docs/theory.md [fit_creep], [fit_recovery]
+      const bool voigt = form == Form::voigt_creep;
+      const double loaded = load * creep_compliance(voigt, p, x);
+      return x > load_time ? loaded - load * creep_compliance(voigt, p, x - load_time) : loaded;
+    }
+    case Form::solid_relaxation:  // strain E (1 + (r - 1) e^(-t/tau))
+      return load * p[modulus] * (1.0 + (p[ratio] - 1.0) * std::exp(-x / p[time]));
+    case Form::voigt_compression: return compression(true, *this, p, x);
+    case Form::solid_compression: return compression(false, *this, p, x);
+  }
+  return 0.0;
+}
 
 const CurveWords& words_of(CurveKind kind) {
   static constexpr std::array<CurveWords, 6> words{{
@@ -107,7 +167,8 @@ ScenarioCurve::ScenarioCurve(CurveKind kind, FixedModel fixed_model, const scena
       model_(std::move(fixed_model)),
       fixed_(scenario::resolve(model_.one, model_.model)),
       family_(&family),
-      unknowns_(unknowns) {
+      unknowns_(unknowns),
+      formula_(formula()) {
   const auto shape_at = [&](const Unknown& one, double value) {
     return scene::shape_key(
         scenario::resolve(model_.at({&one, 1}, std::array{value}), model_.model));
@@ -191,6 +252,14 @@ std::optional<ScenarioCurve::Rows> ScenarioCurve::rows(std::span<const double> v
 }
 
 bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
+  if (!formula_) return run(u, out);
+  ClosedCurve::Parameters p = formula_->known;
+  for (std::size_t i = 0; i < u.size(); ++i) p[formula_->slot_of[i]] = unknowns_[i].value(u[i]);
+  for (std::size_t i = 0; i < x_.size(); ++i) out[i] = formula_->value(p, x_[i] - shift_);
+  return true;
+}
+
+bool ScenarioCurve::run(std::span<const double> u, std::span<double> out) {
   std::vector<double> values;
   double shift = shift_;
   double gain = 1.0;
@@ -231,10 +300,8 @@ bool ScenarioCurve::evaluate(std::span<const double> u, std::span<double> out) {
   return true;
 }
 
-std::optional<ClosedCurve> ScenarioCurve::closed() const {
+std::optional<ClosedCurve> ScenarioCurve::formula() const {
   ClosedCurve curve;
-  curve.unknowns.assign(unknowns_.begin(), unknowns_.end());
-  for (const double x : x_) curve.x.push_back(x - shift_);
   const scenario::Resolved::Tissue& tissue = fixed_.tissue;
   curve.known = {tissue.young_modulus, tissue.poisson_ratio, 1.0, 1.0, 0.0, 0.0};
   const bool one_tissue = fixed_.regions.empty();
@@ -263,7 +330,8 @@ std::optional<ClosedCurve> ScenarioCurve::closed() const {
     const bool sliding = tissue.base == tissue::Base::frictionless;
     const bool voigt = tissue.viscosity == tissue::Viscosity::kelvin_voigt;
     const bool solid = tissue.viscosity == tissue::Viscosity::standard_linear_solid;
-    if (!fixed_.uniform() || !one_tissue || !sliding || fixed_.steps.size() != 1 ||
+    // A model that the scenario names is run: the formula of a uniform test only approximates it.
+    if (model_.given || !fixed_.uniform() || !one_tissue || !sliding || fixed_.steps.size() != 1 ||
         !std::holds_alternative<scenario::Cuboid>(tissue.shape) ||
         about(fixed_.solver.integrator).inertia)
       return std::nullopt;
@@ -307,6 +375,236 @@ std::optional<ClosedCurve> ScenarioCurve::closed() const {
     curve.slot_of.push_back(slot->second);
   }
   return curve;
+}
+
+// The loading history is lengthened where its end alone would leave rows of the measurement out.
+
+std::optional<double> duration(const scenario::Scenario& scenario) {
+  double time = 0.0;
+  double travel = 0.0;
+  for (const scenario::Step& step : scenario.steps) {
+    if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
+      if (indent->to.second) return std::nullopt;
+      time += (indent->to.value - travel) / indent->rate;
+      travel = indent->to.value;
+    } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
+      time += (travel - retract->to) / retract->rate;
+      travel = retract->to;
+    } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
+      time += hold->time;
+    } else if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
+      time += slide->by / slide->rate;
+    } else if (const auto* creep = std::get_if<scenario::Creep>(&step)) {
+      time += creep->load_time + creep->recovery_time;
+    } else if (const auto* relax = std::get_if<scenario::Relax>(&step)) {
+      time += relax->time;
+    } else if (const auto* compress = std::get_if<scenario::Compress>(&step)) {
+      time += compress->ramp_time() + compress->hold_time;
+    }
+  }
+  return time;
+}
+
+namespace {
+
+constexpr double margin = 1e-6;  // relative; the last row lies beyond the last point
+
+bool lengthen_time(scenario::Scenario& scenario, double farthest) {
+  const auto lasts = duration(scenario);
+  if (!lasts || farthest <= *lasts * (1.0 + 1e-9)) return false;
+  const double more = farthest * (1.0 + margin) - *lasts;
+  scenario::Step& last = scenario.steps.back();
+  if (auto* hold = std::get_if<scenario::Hold>(&last))
+    hold->time += more;
+  else if (auto* relax = std::get_if<scenario::Relax>(&last))
+    relax->time += more;
+  else if (auto* creep = std::get_if<scenario::Creep>(&last))
+    creep->recovery_time += more;
+  else if (auto* compress = std::get_if<scenario::Compress>(&last))
+    compress->hold_time += more;
+  else if (auto* indent = std::get_if<scenario::Indent>(&last))
+    indent->to.value += more * indent->rate;
+  else
+    return false;
+  return true;
+}
+
+}  // namespace
+
+bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest) {
+  const double end = farthest * (1.0 + margin);
+  if (kind == CurveKind::force_travel) {
+    for (scenario::Step& step : scenario.steps)
+      if (auto* indent = std::get_if<scenario::Indent>(&step)) {
+        if (indent->to.second || indent->to.value >= farthest) return false;
+        indent->to.value = end;
+        return true;
+      }
+    return false;
+  }
+  if (kind == CurveKind::tangential_slide) {
+    for (scenario::Step& step : scenario.steps)
+      if (auto* slide = std::get_if<scenario::Slide>(&step)) {
+        if (slide->by >= farthest) return false;
+        slide->by = end;
+        return true;
+      }
+    return false;
+  }
+  if (kind == CurveKind::stress_strain) {
+    auto* compress = std::get_if<scenario::Compress>(&scenario.steps.front());
+    if (compress == nullptr || compress->strain >= farthest) return false;
+    compress->strain = end;
+    return true;
+  }
+  return lengthen_time(scenario, farthest);
+}
+
+DefaultBody default_body(ScenarioCurve& curve, const scenario::Family& family,
+                         std::span<const double> values) {
+  const auto* box = std::get_if<scenario::Cuboid>(&curve.fixed().tissue.shape);
+  const Member* tissue = family.document.find("tissue");
+  const bool named = tissue != nullptr && tissue->value.find("shape") != nullptr;
+  if (box == nullptr || named || curve.fixed().uniform()) return {};
+  DefaultBody body;
+  body.text = "the scenario names no `tissue.shape`, so that the body is the default block, ";
+  for (std::size_t i = 0; i < 3; ++i)
+    body.text += (i > 0 ? " by " : "") + rounded_text(unit::mm.from_si(box->size[i]));
+  body.text += " mm";
+  FixedModel half{.one = curve.at(values)};
+  half.one.scenario.tissue.shape = scenario::HalfSpace{};
+  half.one.scenario.solver.model = scenario::Model::hertz;
+  const auto on_block = curve.rows(values);
+  const auto on_half = ScenarioCurve(curve.kind(), std::move(half), family, {}).rows({});
+  if (on_block && on_half && on_block->y.size() == on_half->y.size()) {
+    // Over time the last row may be after the finger has left the body.
+    const auto largest = std::max_element(on_half->y.begin(), on_half->y.end());
+    const double on_this = on_block->y[as_index(largest - on_half->y.begin())];
+    const double more = *largest > 0.0 ? on_this / *largest - 1.0 : 0.0;
+    if (std::abs(more) > 0.02) {
+      body.change = more;
+      body.text += ", on which the force at the deepest is " + percent_text(std::abs(more)) +
+                   (more > 0.0 ? " larger" : " smaller") +
+                   " than on a half-space, and the intervals are as much wider";
+    }
+  }
+  body.text += "; set it to that of the specimen";
+  return body;
+}
+
+// Chooses the model by its estimated errors at the corners of the box.
+
+namespace {
+
+// The middle of the box, then its corners; for more than 5 unknowns the ends of each one alone.
+std::vector<std::vector<double>> places(std::size_t unknowns) {
+  std::vector<std::vector<double>> all{std::vector<double>(unknowns, 0.5)};
+  constexpr std::size_t most_for_corners = 5;
+  if (unknowns > most_for_corners) {
+    for (std::size_t i = 0; i < unknowns; ++i)
+      for (const double end : {0.0, 1.0}) {
+        all.push_back(all.front());
+        all.back()[i] = end;
+      }
+    return all;
+  }
+  for (std::size_t corner = 0; corner < (std::size_t{1} << unknowns); ++corner) {
+    all.emplace_back(unknowns);
+    for (std::size_t i = 0; i < unknowns; ++i) all.back()[i] = (corner >> i & 1U) != 0 ? 1.0 : 0.0;
+  }
+  return all;
+}
+
+double error_of(const scene::Choice& choice, scenario::Model model) {
+  const scene::Forecast* forecast = choice.forecast(model);
+  return forecast != nullptr ? forecast->error : std::numeric_limits<double>::infinity();
+}
+
+scene::Choice quick_choice(const scenario::Case& one) {
+  scene::SpecimenShapes shapes;
+  return run::choose(one, shapes, run::Models::quick);
+}
+
+}  // namespace
+
+scenario::Case FixedModel::at(std::span<const Unknown> unknowns,
+                              std::span<const double> values) const {
+  scenario::Case other = one;
+  set_unknowns(other.scenario, unknowns, values);
+  return other;
+}
+
+FixedModel fix_model(const scenario::Case& one, const Node& document,
+                     std::span<const Unknown> unknowns) {
+  const scenario::Scenario& scenario = one.scenario;
+  FixedModel fixed{.one = one};
+  std::vector<scene::Choice> choices;
+  scene::SpecimenShapes shapes;
+  std::vector<Problem> wrong;
+  bool deep_known = true;  // the factor of deep presses exists for all values tried
+  for (const std::vector<double>& u : places(unknowns.size())) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < u.size(); ++i) values.push_back(unknowns[i].value(u[i]));
+    const scenario::Case at = fixed.at(unknowns, values);
+    std::vector<Problem> problems;
+    scenario::check(at, document, problems);
+    if (problems.empty()) {
+      choices.push_back(run::choose(at, shapes, run::Models::quick));
+      deep_known = deep_known && choices.back().expected.depth_ratio.has_value();
+    } else if (wrong.empty()) {
+      wrong = problems;
+    }
+  }
+  if (choices.empty()) throw InputError(wrong);
+
+  scenario::Found found{.viscosity_matters = false, .inertia_matters = false};
+  fixed.given = choices.front().given;
+  fixed.model = choices.front().chosen.solver.model;
+  double best = std::numeric_limits<double>::infinity();
+  for (const scene::Forecast& forecast : choices.front().forecasts) {  // cheapest first
+    if (fixed.given || best <= scenario.solver.tolerance) break;
+    double worst = 0.0;
+    for (const scene::Choice& choice : choices)
+      worst = std::max(worst, error_of(choice, forecast.model) - choice.waves);
+    if (worst >= best) continue;
+    best = worst;
+    fixed.model = forecast.model;
+  }
+  for (const scene::Choice& choice : choices) {
+    if (!choice.forecasts.empty())
+      fixed.worst_error = std::max(fixed.worst_error, error_of(choice, fixed.model));
+    found.viscosity_matters |= choice.found.viscosity_matters;
+    found.inertia_matters |= choice.found.inertia_matters;
+    found.depth_matters |= choice.found.depth_matters;
+  }
+  found.depth_matters = found.depth_matters && deep_known;
+  fixed.one.scenario = scenario::answered(one, scenario::resolve(one, fixed.model, found));
+  return fixed;
+}
+
+// 1 / (omega_1 tau)^2, omega_1 = pi sqrt(E / rho) / (2 H)                docs/theory.md [damping]
+std::optional<double> inertia_of_flow(const scenario::Resolved& scenario) {
+  const scenario::Resolved::Tissue& tissue = scenario.tissue;
+  const auto* box = std::get_if<scenario::Cuboid>(&tissue.shape);
+  const bool voigt = tissue.viscosity == tissue::Viscosity::kelvin_voigt;
+  const bool solid = tissue.viscosity == tissue::Viscosity::standard_linear_solid;
+  if (box == nullptr || (!voigt && !solid) || !scenario.uniform()) return std::nullopt;
+  const double time = voigt ? tissue.law.time : tissue.law.longest_time();
+  const double speed = std::sqrt(tissue.young_modulus / tissue.density);
+  const double turns = std::numbers::pi * speed / (2.0 * box->size[2]) * time;
+  return 1.0 / (turns * turns);
+}
+
+std::optional<double> predicted_error(const scenario::Case& fixed) {
+  const scene::Choice choice = quick_choice(fixed);
+  const scene::Forecast* forecast = choice.taken();
+  return forecast == nullptr ? std::nullopt : std::optional(forecast->error);
+}
+
+std::optional<double> deep_effect(const scenario::Case& fixed) {
+  const scene::Choice choice = quick_choice(fixed);
+  if (choice.chosen.contact.depth != scenario::Contact::Depth::neo_hookean) return std::nullopt;
+  return choice.expected.deep;
 }
 
 }  // namespace palpate::identify

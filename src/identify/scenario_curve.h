@@ -1,17 +1,51 @@
-// The curve that a scenario computes, at the points of a measurement.
+// The curve that a scenario computes, at the points of a measurement, to whose end its loading
+// history is lengthened; and the one model for a whole search: a change of model would make the
+// curve discontinuous.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/units.h"
-#include "identify/closed_curve.h"
-#include "identify/fixed_model.h"
+#include "identify/unknowns.h"
+#include "scenario/resolved.h"
 #include "scene/specimen_shape.h"
 
 namespace palpate::identify {
+
+struct FixedModel {
+  scenario::Case one;  // every `auto` is replaced by the choice made for it
+  scenario::Model model = scenario::Model::hertz;
+  bool given = false;        // the scenario names the model
+  double worst_error = 0.0;  // relative; the largest estimate at the corners and the middle
+
+  // The case at these values of the unknowns (SI, in their order).
+  [[nodiscard]] scenario::Case at(std::span<const Unknown> unknowns,
+                                  std::span<const double> values) const;
+};
+
+// Returns the cheapest model whose estimated error is within `solver.tolerance` at the corners and
+// in the middle of the box (more than 5 unknowns: at the ends of each, the others in the middle);
+// if there is none, the model with the smallest worst error. Viscosity in the contact, inertia or
+// the factor of deep presses is used throughout if any of these points needs it; inertia is
+// neglected of the flow between platens. `document` gives messages their place. Throws InputError
+// with the problems of the middle if the scenario is invalid at all of these points.
+[[nodiscard]] FixedModel fix_model(const scenario::Case& one, const Node& document,
+                                   std::span<const Unknown> unknowns);
+
+// Relative change of a specimen's flow by its lowest axial wave, 1 / (omega_1 tau)^2 with omega_1
+// of theory.md [damping]. Nothing unless a cuboid of Kelvin-Voigt or SLS tissue is between platens.
+[[nodiscard]] std::optional<double> inertia_of_flow(const scenario::Resolved& scenario);
+
+// Estimated relative error of the model that this case names; nothing if there is no estimate.
+[[nodiscard]] std::optional<double> predicted_error(const scenario::Case& fixed);
+
+// Relative change of the force at the deepest travel by the factor of deep presses (docs/theory.md
+// [deep]); nothing where the case does not use it.
+[[nodiscard]] std::optional<double> deep_effect(const scenario::Case& fixed);
 
 struct Measurement {
   std::vector<double> x, y;    // SI
@@ -50,6 +84,33 @@ struct CurveWords {
 [[nodiscard]] scenario::Scenario part_for(CurveKind kind, const scenario::Scenario& scenario,
                                           double farthest);
 
+// A curve that has a formula.
+struct ClosedCurve {
+  enum class Form {
+    hertz_press,
+    voigt_creep,
+    solid_creep,
+    solid_relaxation,
+    voigt_compression,
+    solid_compression
+  };
+  // The parameters of the formulas; each is an unknown or has its value in `known`.
+  enum Slot { modulus, poisson, time, ratio, contact_point, force_offset, slots };
+  using Parameters = std::array<double, slots>;  // SI
+
+  Form form = Form::hertz_press;
+  Parameters known{};
+  std::vector<Slot> slot_of;  // one per unknown
+
+  double radius = 0.0;             // m, of the finger
+  double finger_compliance = 0.0;  // 1/Pa, lambda_1
+  double load = 0.0;               // creep: stress, Pa; otherwise strain
+  double load_time = 0.0;          // s, duration of the stress, or of the growth of the strain
+  bool over_strain = false;        // compression: x is the strain while it grows
+
+  [[nodiscard]] double value(const Parameters& p, double x) const;  // SI
+};
+
 class ScenarioCurve {
  public:
   // Keeps references to family and unknowns.
@@ -70,12 +131,14 @@ class ScenarioCurve {
   };
   [[nodiscard]] std::optional<Rows> rows(std::span<const double> values);
 
-  // Computes the curve at the points for u in [0, 1]; false, with a failure(), if it cannot.
+  // Computes the curve at the points for u in [0, 1]; false, with a failure(), if it cannot. By a
+  // formula, where it has one: an elastic, shallow Hertz press on a flat surface, or one creep,
+  // relaxation or compression step of a cuboid of one tissue between sliding platens, whose model
+  // is not named.
   [[nodiscard]] bool evaluate(std::span<const double> u, std::span<double> out);
-
-  // The curve as a formula, if it has one: an elastic, shallow Hertz press on a flat surface, or
-  // one creep or relaxation step of a cuboid of one tissue between sliding platens.
-  [[nodiscard]] std::optional<ClosedCurve> closed() const;
+  [[nodiscard]] bool has_formula() const { return formula_.has_value(); }
+  // The same by running the scenario.
+  [[nodiscard]] bool run(std::span<const double> u, std::span<double> out);
 
   // Why the last evaluation failed.
   [[nodiscard]] const std::string& failure() const { return failure_; }
@@ -87,17 +150,40 @@ class ScenarioCurve {
   [[nodiscard]] CurveKind kind() const { return kind_; }
 
  private:
+  [[nodiscard]] std::optional<ClosedCurve> formula() const;
+
   CurveKind kind_;
   FixedModel model_;
   scenario::Resolved fixed_;
   const scenario::Family* family_;
   std::span<const Unknown> unknowns_;
   std::vector<double> x_;
+  std::optional<ClosedCurve> formula_;
   scene::SpecimenShapes shapes_;
   double shift_ = 0.0;
   std::optional<double> farthest_;
   bool shape_varies_ = false;
   std::string failure_;
 };
+
+// Lengthens the step that ends the curve so that the loading history reaches `farthest` (a travel
+// or a slide, m, or a time, s): the first `indent` with a travel, the first `slide`, or a last
+// `hold`, `relax`, `creep` (its recovery) or `indent`. Nothing is shortened. Returns whether a step
+// has changed; a step that ends at a force, and a last `retract` or `slide` over time, stay.
+bool lengthen(CurveKind kind, scenario::Scenario& scenario, double farthest);
+
+// The duration of the loading history, s; nothing if a step ends at a force, at a time that is not
+// known.
+[[nodiscard]] std::optional<double> duration(const scenario::Scenario& scenario);
+
+// On the default block where the scenario of a press names no body, and by how much its force at
+// the deepest is above that of a half-space, with these values of the unknowns (SI), if by over 2
+// %. Empty otherwise. What nobody has said belongs to the intervals.
+struct DefaultBody {
+  std::string text;
+  double change = 0.0;
+};
+[[nodiscard]] DefaultBody default_body(ScenarioCurve& curve, const scenario::Family& family,
+                                       std::span<const double> values);
 
 }  // namespace palpate::identify

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "fit/residuals.h"
+#include "scenario/integrators.h"
 
 namespace palpate::identify {
 
@@ -222,6 +224,49 @@ std::vector<std::string> identified_sentences(const Identification& found) {
                       " earlier or later changes `" + one.unknown.name() + "` by " +
                       change(*one.moved_down, one) + " or " + change(*one.moved_up, one) + ".");
   return lines;
+}
+
+std::vector<std::string> warnings_of(const Identification& found,
+                                     const WeightedResiduals& residuals,
+                                     const scenario::Resolved& with) {
+  std::vector<std::string> warnings;
+  // Systematic residuals below a thousandth of the curve come from interpolation.
+  const bool few = found.rho > 0.0 && found.effective_size < 10.0;
+  if ((fit::systematic(residuals.values) || few) && residuals.noise > 1e-3)
+    warnings.push_back(fit::correlation_sentence(
+        found.durbin_watson, found.x.size(),
+        found.rho > 0.0 ? found.effective_size : static_cast<double>(found.x.size())));
+  if (found.r2 < 0.9)
+    warnings.push_back("R^2 is " + rounded_text(found.r2, 3) +
+                       ", so that the model describes the curve poorly, and the estimates mean "
+                       "little");
+  std::vector<std::string> inseparable;
+  for (const Identified& one : found.unknowns)
+    if (one.inseparable) inseparable.push_back("`" + one.unknown.name() + "`");
+  if (!inseparable.empty())
+    warnings.push_back(
+        joined(inseparable, " and ") +
+        (inseparable.size() > 1 ? " have no numbers" : " has no number") +
+        ": these data do not tell; give one by `--set` or `--given`, or add a test that "
+        "differs, such as another radius or thickness, by `--with`");
+  for (const Identified& one : found.unknowns)
+    if (one.at_bound)
+      warnings.push_back("the best `" + one.unknown.name() +
+                         "` is on the edge of its range; widen the range, or hold it there with "
+                         "`--set`");
+  for (const Identification* one : views(found))
+    if (one->predicted_error && *one->predicted_error > with.solver.tolerance)
+      warnings.push_back("the estimated error of `" +
+                         std::string(scenario::traits(one->taken).word) + "` is " +
+                         percent_text(*one->predicted_error) +
+                         " here, and the estimates are wrong by about as much" +
+                         (one->given ? "; leave `solver.model` to `auto`" : ""));
+  const auto waves = inertia_of_flow(with);
+  if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
+    warnings.push_back("waves in the specimen change its deformation by about " +
+                       percent_text(*waves) +
+                       " and are neglected; set `solver.integrator = \"central_difference\"`");
+  return warnings;
 }
 
 }  // namespace palpate::identify

@@ -50,4 +50,16 @@ struct EstimateTexts {
 // the contact point.
 [[nodiscard]] std::vector<std::string> identified_sentences(const Identification& found);
 
+struct WeightedResiduals {
+  std::span<const double> values;  // in the order of the points
+  double noise = 0.0;              // their standard deviation
+  std::string model;               // the word of the model
+};
+
+// Sentences on why the estimates may be wrong: on correlated residuals, few independent points, R^2
+// below 0.9, estimates at a bound, the model's own error at the estimates, and neglected inertia.
+[[nodiscard]] std::vector<std::string> warnings_of(const Identification& found,
+                                                   const WeightedResiduals& residuals,
+                                                   const scenario::Resolved& with);
+
 }  // namespace palpate::identify

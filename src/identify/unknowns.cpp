@@ -50,15 +50,10 @@ Parts parts_of(const std::string& text) {
 }
 
 double bound(const std::string& text, const std::string& written, const std::optional<Unit>& unit) {
-  if (!unit) {
-    const auto number = whole_number(written);
-    if (!number) refuse(text, "wants pure numbers, got `" + written + "`; write `0.1..0.49`");
-    return *number;
-  }
   try {
-    return parse_quantity(written, *unit);
+    return number_in(written, unit);
   } catch (const std::invalid_argument& wrong) {
-    refuse(text, wrong.what());
+    refuse(text, wrong.what() + std::string(unit ? "" : "; write `0.1..0.49`"));
   }
 }
 
@@ -139,6 +134,12 @@ Unknown read_unknown(const std::string& text, const Parts& parts,
 }
 
 }  // namespace
+
+double number_in(const std::string& written, const std::optional<Unit>& unit) {
+  if (unit) return parse_quantity(written, *unit);
+  if (const auto number = whole_number(written)) return *number;
+  throw std::invalid_argument("wants pure numbers, got `" + written + "`");
+}
 
 double Unknown::value(double u) const {
   return scale == Scale::logarithmic ? low * std::pow(high / low, u) : low + u * (high - low);

@@ -49,6 +49,9 @@ struct Unknown {
 [[nodiscard]] std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,
                                                  const scenario::Scenario& scenario);
 
+// The number, SI, of a key with this unit. Throws std::invalid_argument with a clause "wants ...".
+[[nodiscard]] double number_in(const std::string& written, const std::optional<Unit>& unit);
+
 // Sets those unknowns that are keys of the scenario; `values` in SI, in the order of `unknowns`.
 void set_unknowns(scenario::Scenario& scenario, std::span<const Unknown> unknowns,
                   std::span<const double> values);

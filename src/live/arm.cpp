@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "contact/passivity.h"
-#include "device/arm_safety.h"
-#include "live/guide.h"
+#include "device/safety.h"
 #include "live/loop.h"
 #include "run/contact_row.h"
 

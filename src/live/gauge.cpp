@@ -8,7 +8,6 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "device/safety.h"
-#include "live/guide.h"
 #include "live/loop.h"
 #include "live/touch.h"
 #include "run/contact_row.h"
@@ -32,24 +31,6 @@ constexpr double moved = 0.02;        // of the deepest travel: less is no motio
 constexpr double known = 5.0;         // readings at rest that tell their mean and noise
 constexpr double fall_time = 0.5;     // s below the force at rest, which no noise stays for
 constexpr double silent = 5.0;        // s without a press, after which what it waits for is said
-
-// Mean and standard deviation of readings; those of a long time, about the last hundred.
-class Readings {
- public:
-  double count = 0.0;
-  void add(double force) {
-    constexpr double most = 100.0;
-    count = std::min(count + 1.0, most);
-    const double change = force - mean_;
-    mean_ += change / count;
-    variance_ += (change * (force - mean_) - variance_) / count;
-  }
-  [[nodiscard]] double mean() const { return mean_; }
-  [[nodiscard]] double deviation() const { return std::sqrt(std::max(0.0, variance_)); }
-
- private:
-  double mean_ = 0.0, variance_ = 0.0;
-};
 
 class GaugeLoop {
  public:
@@ -172,20 +153,20 @@ class GaugeLoop {
         fell(sample, -change);
       else
         rest_.add(sample.force);
-      line_ = TouchLine();
+      line_ = StraightLine();
       last_free_ = time;
       return false;
     }
-    line_.add(-time, change);
+    line_.add(time, linear_in_depth(change));
     first_.push_back(sample);
     if (change < beginning()) return false;
     tare_ = rest_.mean();
     if (std::abs(tare_) > told_tare * least)
       loop_.warnings.push_back("the gauge showed " + rounded_text(1e3 * tare_, 3) +
                                " mN at rest, which is taken out of all forces; tare it");
-    const auto contact = line_.surface();
-    first_time_ =
-        contact ? std::min(-*contact, time_of(first_.front())) : last_free_.value_or(time);
+    const auto line = line_.found();
+    first_time_ = line && line->slope > 0.0 ? std::min(line->zero, time_of(first_.front()))
+                                            : last_free_.value_or(time);
     for (const Sample& one : std::exchange(first_, {})) write(one);
     return true;
   }
@@ -254,7 +235,7 @@ class GaugeLoop {
   double first_time_ = 0.0;  // s, of the first row or of the contact
   Readings rest_;            // before the contact
   double tare_ = 0.0;        // N
-  TouchLine line_;
+  StraightLine line_;
   std::vector<Sample> first_;        // in contact, before the rows
   std::vector<Sample> low_;          // in a row below those at rest
   std::optional<double> last_free_;  // s, of the last reading without force

@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/index.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "contact/hertz.h"
 #include "contact/passivity.h"
-#include "device/arm_safety.h"
-#include "device/events.h"
-#include "device/link_text.h"
-#include "device/realtime.h"
-#include "device/stand_safety.h"
-#include "live/guide.h"
+#include "device/clock.h"
+#include "device/link.h"
+#include "device/safety.h"
+#include "live/loop.h"
+#include "live/touch.h"
 #include "record/csv.h"
 #include "record/record.h"
 #include "run/family.h"
@@ -207,20 +207,21 @@ std::vector<std::string> Live::plan(const std::string& file) {
                                 quantity_text(limits.period, unit::ms) +
                                 "; set `solver.time_step` to that");
   if (identity.kind == Kind::recording) return lines;
-  cost_ = predict_cost(*scene_, *model_, limits.period, cost_frames);
+  const FrameCost predicted = predict_cost(*scene_, *model_, limits.period, cost_frames);
   if (!model_->start_again()) model_ = std::make_unique<LiveModel>(*scene_);
-  const std::string cost = "the model takes " + rounded_text(1e6 * cost_.median, 3) +
-                           " µs a frame, " + rounded_text(1e6 * cost_.p99, 3) +
+  const std::string cost = "the model takes " + rounded_text(1e6 * predicted.median, 3) +
+                           " µs a frame, " + rounded_text(1e6 * predicted.p99, 3) +
                            " µs in one of 100, of " + rounded_text(1e6 * limits.period, 3) + " µs";
   lines.push_back(cost);
-  if (real && cost_.median > 0.8 * limits.period)
+  if (real && predicted.median > 0.8 * limits.period)
     throw InputError(place, cost +
                                 ": it cannot keep the device's pace; take a cheaper model, as "
                                 "`solver.integrator = \"modal\"` or `solver.model = \"hertz\"`");
-  if (real && cost_.p99 > 0.8 * limits.period) lines.push_back("some frames will be late: " + cost);
-  if (identity.kind == Kind::stand && cost_.force > most_force(*options_, Kind::stand))
+  if (real && predicted.p99 > 0.8 * limits.period)
+    lines.push_back("some frames will be late: " + cost);
+  if (identity.kind == Kind::stand && predicted.force > most_force(*options_, Kind::stand))
     throw InputError(place, "the loading history is predicted to press with " +
-                                newtons(cost_.force) + ", beyond the ceiling of " +
+                                newtons(predicted.force) + ", beyond the ceiling of " +
                                 newtons(most_force(*options_, Kind::stand)) +
                                 "; press less deep, or give `--max-force`");
   return lines;
@@ -320,6 +321,118 @@ Live::Result Live::go(const std::atomic<bool>& stop, const Output& output) {
   record.attached.emplace_back(
       "device_health.json", device::health_json(identity, link_.limits(), link_.traffic(), health));
   return result;
+}
+
+// A line through the readings of every motion; what lies between two of them is a hold.
+
+namespace {
+
+constexpr double shortest_hold = 1e-3;  // s: the first hold exists however early the stand sets off
+constexpr double edge = 0.15;           // of a way, at both ends, where the stand changes its speed
+constexpr int fewest = 5;               // readings
+
+struct Way {
+  double rate = 0.0;              // m/s, along travel, below 0 upwards
+  double begin = 0.0, end = 0.0;  // s
+  double to = 0.0;                // m
+};
+
+double travel_of(const record::MeasuredRow& row) { return -row.place[2]; }
+
+// The motion from `from` (m) in the rows of a step.
+std::optional<Way> way_of(const record::CaseRecord& record, int step, double from) {
+  double to = from;
+  for (std::size_t i = 0; i < record.contact.size(); ++i)
+    if (record.contact[i].step == step) to = travel_of(record.measured[i]);
+  const double low = std::min(from, to) + edge * std::abs(to - from);
+  const double high = std::max(from, to) - edge * std::abs(to - from);
+  StraightLine line;
+  for (std::size_t i = 0; i < record.contact.size(); ++i)
+    if (const double travel = travel_of(record.measured[i]);
+        record.contact[i].step == step && travel >= low && travel <= high)
+      line.add(record.contact[i].time, travel - from);
+  const auto found = line.found();
+  if (!found || line.count() < fewest) return std::nullopt;
+  Way way;
+  way.rate = found->slope;
+  way.begin = found->zero;
+  way.end = way.begin + (to - from) / found->slope;
+  way.to = to;
+  return way;
+}
+
+}  // namespace
+
+std::optional<std::vector<scenario::Step>> as_moved(const record::CaseRecord& record,
+                                                    const std::vector<scenario::Step>& planned) {
+  if (record.outcome != record::Outcome::completed || record.measured.empty()) return std::nullopt;
+  std::vector<scenario::Step> steps;
+  double time = 0.0;
+  double travel = 0.0;
+  for (std::size_t i = 0; i < planned.size(); ++i) {
+    if (std::holds_alternative<scenario::Hold>(planned[i])) continue;
+    const auto way = way_of(record, static_cast<int>(i) + 1, travel);
+    if (!way) return std::nullopt;
+    const double rest = way->begin - time;
+    if (steps.empty() || rest > shortest_hold)
+      steps.emplace_back(scenario::Hold{std::max(rest, shortest_hold)});
+    if (way->to <= travel) return steps;
+    steps.emplace_back(scenario::Indent{{way->to, false}, way->rate});
+    time = way->end;
+    travel = way->to;
+  }
+  const double rest = record.contact.back().time - time;
+  if (!steps.empty() && rest > shortest_hold) steps.emplace_back(scenario::Hold{rest});
+  return steps.empty() ? std::nullopt : std::optional(steps);
+}
+
+// A step ends when its goal is reached, not at its planned time.
+
+using scenario::Hold;
+using scenario::Indent;
+using scenario::Retract;
+using scenario::Slide;
+
+bool Guide::is_over(const GuidePlace& place) const {
+  const scenario::Step& step = (*steps_)[as_index(step_ - 1)];
+  if (const auto* indent = std::get_if<Indent>(&step))
+    return indent->to.second ? place.force >= indent->to.value
+                             : -place.offset.z() >= indent->to.value;
+  if (const auto* retract = std::get_if<Retract>(&step)) return -place.offset.z() <= retract->to;
+  if (const auto* slide = std::get_if<Slide>(&step)) {
+    const Vec3 way = place.offset - begin_.offset;
+    return std::hypot(way.x(), way.y()) >= slide->by;
+  }
+  const auto* hold = std::get_if<Hold>(&step);
+  return hold == nullptr || place.time - begin_.time >= hold->time;
+}
+
+void Guide::pass(const GuidePlace& place) {
+  if (!any_) begin_ = place;
+  any_ = true;
+  if (done_ || !is_over(place)) return;
+  begin_ = place;
+  if (step_ == static_cast<int>(steps_->size()))
+    done_ = true;
+  else
+    ++step_;
+}
+
+std::string guidance(const scenario::Step& step) {
+  const auto mm = [](double length) { return rounded_text(1e3 * length) + " mm"; };
+  const auto speed = [&](double rate) { return " at about " + mm(rate) + "/s"; };
+  if (const auto* indent = std::get_if<Indent>(&step))
+    return "press " +
+           (indent->to.second ? "until the force is " + rounded_text(indent->to.value) + " N"
+                              : "to " + mm(indent->to.value)) +
+           speed(indent->rate);
+  if (const auto* retract = std::get_if<Retract>(&step))
+    return "withdraw to " + mm(retract->to) + speed(retract->rate);
+  if (const auto* slide = std::get_if<Slide>(&step))
+    return "slide sideways by " + mm(slide->by) + speed(slide->rate);
+  if (const auto* hold = std::get_if<Hold>(&step))
+    return "hold still for " + rounded_text(hold->time) + " s";
+  return "nothing";
 }
 
 }  // namespace palpate::live

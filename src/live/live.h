@@ -1,4 +1,5 @@
-// Runs a scenario with a live device, after describing the device and the plan.
+// Runs a scenario with a live device, after describing the device and the plan; and the loading
+// history that a stand really carried out.
 #pragma once
 
 #include <atomic>
@@ -11,6 +12,8 @@
 
 #include "live/loop.h"
 #include "live/verdict.h"
+#include "record/record.h"
+#include "scenario/scenario.h"
 
 namespace palpate::live {
 
@@ -67,8 +70,15 @@ class Live {
   std::unique_ptr<device::Tap> tap_;  // null unless the traffic is kept
   std::unique_ptr<LiveModel> model_;  // before link_, so that its long preparation precedes it
   device::Link link_;
-  FrameCost cost_;
   std::vector<std::string> notes_;
 };
+
+// The presses and holds of a loading history up to its first withdrawal, with the rates, travels
+// and times of the record. The first step is a hold until the stand sets off. The rate and the ends
+// of a motion are those of a line fitted to the readings in its middle, which averages their
+// resolution. Nothing without five readings in every motion, and for a run that diverged or was
+// stopped.
+[[nodiscard]] std::optional<std::vector<scenario::Step>> as_moved(
+    const record::CaseRecord& record, const std::vector<scenario::Step>& planned);
 
 }  // namespace palpate::live

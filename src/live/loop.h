@@ -1,4 +1,5 @@
-// Options, context and result shared by the two loops, of a stand and of an arm.
+// Options, context and result shared by the loops of a stand, an arm and a gauge, and the model
+// that follows any motion of the finger with the same functions as `run`.
 #pragma once
 
 #include <array>
@@ -10,15 +11,73 @@
 #include <string>
 #include <vector>
 
+#include "base/vec3.h"
 #include "device/clock.h"
 #include "device/health.h"
 #include "device/link.h"
 #include "device/safety.h"
 #include "live/log.h"
-#include "live/model.h"
+#include "mechanics/contact_history.h"
+#include "mechanics/contacts.h"
+#include "mechanics/pressed_mesh.h"
+#include "scenario/scenario.h"
 #include "scene/scene.h"
 
 namespace palpate::live {
+
+class LiveModel {
+ public:
+  // The scene has a finger and outlives the model. Allocates and solves all that follow() needs, as
+  // PressedMesh::make_ready() does, which takes seconds on a mesh of thousands of nodes.
+  explicit LiveModel(const scene::Scene& scene);
+
+  // Moves the finger in a straight line to `offset` (m, from the position of its first touch, z
+  // upwards) until `time` (s, not decreasing). A mesh takes all its steps that end by then; the
+  // rest follows in the next call. Returns a sentence if the model diverged or its law does not
+  // apply, then and in every later call.
+  [[nodiscard]] std::optional<std::string> follow(const Vec3& offset, double time);
+
+  // Returns to the start; the mesh may continue to oscillate. Returns false, and changes nothing,
+  // if the forces depend on the motion of the mesh or follow() has failed.
+  [[nodiscard]] bool start_again();
+
+  [[nodiscard]] const mechanics::Touch& touch() const { return touch_; }
+  // The force on the finger, normal and friction, N.
+  [[nodiscard]] Vec3 force() const;
+  // The solver step of the mesh, s; 0 without a mesh.
+  [[nodiscard]] double step() const { return step_; }
+  // EnergyMonitor::imbalance() of the mesh; nothing without a mesh.
+  [[nodiscard]] std::optional<double> imbalance();
+
+ private:
+  [[nodiscard]] std::optional<std::string> go_to(const Vec3& offset, double time);
+
+  const scene::Scene* scene_;
+  std::optional<mechanics::ContactHistory> history_;
+  std::optional<mechanics::PressedMesh> mesh_;
+  Vec3 first_ =
+      Vec3::Zero();  // m, the finger's point at the first touch; without a mesh, the top's
+  mechanics::Touch touch_;
+  double step_ = 0.0;           // s
+  Vec3 offset_ = Vec3::Zero();  // m, of the last call
+  double time_ = 0.0;           // s, of the last call
+  double begin_ = 0.0;          // s, of the first call
+  long long steps_ = 0;         // steps of the mesh since the first call
+  bool any_ = false;
+  std::optional<std::string> wrong_;
+};
+
+// Run time of a frame of the model on this machine.
+struct FrameCost {
+  double median = 0.0;  // s
+  double p99 = 0.0;     // s, 99th percentile
+  double force = 0.0;   // N, at the largest displacement of the loading history
+};
+
+// Presses the model, which is at its start, to the deepest travel of the scene's loading history in
+// 2 `frames` frames of `frame` s; the second half of them is timed.
+[[nodiscard]] FrameCost predict_cost(const scene::Scene& scene, LiveModel& model, double frame,
+                                     int frames);
 
 constexpr double stepped_wait = 1.0;  // s of wire time, for a reply in lock-step
 
@@ -96,5 +155,37 @@ struct LiveEnd {
 
 // The end of a run by its link, with a sentence that explains trip and fault.
 [[nodiscard]] LiveEnd ended_by_link(device::Trip trip, device::Fault fault);
+
+// State of the finger at one moment.
+struct GuidePlace {
+  double time = 0.0;           // s
+  Vec3 offset = Vec3::Zero();  // m, from the first touch, z upwards
+  double force = 0.0;          // N, computed by the model, upwards on the finger
+};
+
+class Guide {
+ public:
+  // `steps` outlive the guide and contain no creep or relaxation.
+  explicit Guide(const std::vector<scenario::Step>& steps) : steps_(&steps) {}
+
+  // Advances to a moment, without allocation. An `indent` ends at its travel or force, a `hold`
+  // after its time, a `retract` at its travel, a `slide` after its distance; one step per call.
+  void pass(const GuidePlace& place);
+
+  [[nodiscard]] int step() const { return step_; }  // counted from 1; at the end, the last one
+  [[nodiscard]] bool done() const { return done_; }
+
+ private:
+  [[nodiscard]] bool is_over(const GuidePlace& place) const;
+
+  const std::vector<scenario::Step>* steps_;
+  int step_ = 1;
+  bool done_ = false;
+  bool any_ = false;
+  GuidePlace begin_;  // at the start of the step
+};
+
+// The instruction for a step: "press to 2 mm at about 5 mm/s".
+[[nodiscard]] std::string guidance(const scenario::Step& step);
 
 }  // namespace palpate::live

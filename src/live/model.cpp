@@ -1,5 +1,5 @@
 // Follows the finger along straight lines between readings.
-#include "live/model.h"
+#include "live/loop.h"
 
 #include "base/stopwatch.h"
 #include "mechanics/half_space_contact.h"
@@ -92,9 +92,9 @@ FrameCost predict_cost(const scene::Scene& scene, LiveModel& model, double frame
   std::vector<double> times;
   FrameCost cost;
   const int all = 2 * frames;
-  for (int i = 0; i <= all && !cost.wrong; ++i) {
+  for (int i = 0; i <= all; ++i) {
     const Stopwatch watch;
-    cost.wrong = model.follow(Vec3(0.0, 0.0, -deepest * i / all), frame * i);
+    if (model.follow(Vec3(0.0, 0.0, -deepest * i / all), frame * i)) break;
     if (i > frames) times.push_back(watch.seconds());
   }
   cost.force = model.touch().force();

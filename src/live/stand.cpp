@@ -6,8 +6,7 @@
 #include "base/text.h"
 #include "contact/hertz.h"
 #include "device/mark10_protocol.h"
-#include "device/stand_safety.h"
-#include "live/guide.h"
+#include "device/safety.h"
 #include "live/loop.h"
 #include "live/touch.h"
 #include "run/contact_row.h"
@@ -279,18 +278,14 @@ class StandLoop {
     low_ = from - feel_way;
     high_ = from + free_way;
     if (!allow_range(low_, high_)) return false;
-    double sum = 0.0;
-    double squares = 0.0;  // of differences from the first, which lose no digits
-    const double first = last_.force;
+    Readings rest;
     for (int i = 0; i < quiet_readings; ++i) {
       if (!poll()) return false;
-      sum += last_.force - first;
-      squares += (last_.force - first) * (last_.force - first);
+      rest.add(last_.force);
     }
-    const double mean = sum / quiet_readings;
-    const double quiet = first + mean;
-    const double noise = std::sqrt(std::max(0.0, squares / quiet_readings - mean * mean) *
-                                   quiet_readings / (quiet_readings - 1));
+    const double quiet = rest.mean();
+    const double noise =
+        rest.deviation() * std::sqrt(quiet_readings / static_cast<double>(quiet_readings - 1));
     SurfaceSearch search(loop_.scene.relaxation);
     // No deeper than the loading history presses: to the force of relaxed tissue there.
     const contact::SphereLaw& law = loop_.scene.law();

@@ -1,6 +1,7 @@
 // Fits by least squares; cbrt() and exp() are not called in a solver step.
 #include "live/touch.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -8,28 +9,32 @@
 
 namespace palpate::live {
 
-void TouchLine::add(double z, double force) {
-  if (!(force > 0.0)) return;
-  if (count_ == 0.0) z_first_ = z;
-  const double way = z - z_first_;
-  const double root = std::cbrt(force);
-  const double y = root * root;
-  count_ += 1.0;
-  z_ += way;
-  zz_ += way * way;
-  y_ += y;
-  zy_ += way * y;
+void Readings::add(double force) {
+  constexpr double most = 100.0;
+  count = std::min(count + 1.0, most);
+  const double change = force - mean_;
+  mean_ += change / count;
+  variance_ = std::max(0.0, variance_ + (change * (force - mean_) - variance_) / count);
 }
 
-std::optional<double> TouchLine::surface() const {
-  if (count_ < 3.0) return std::nullopt;
-  const double spread = count_ * zz_ - z_ * z_;
-  if (!(spread > 0.0)) return std::nullopt;
-  const double slope = (count_ * zy_ - z_ * y_) / spread;
-  if (!(slope < 0.0)) return std::nullopt;
-  const double level = (y_ - slope * z_) / count_;
-  return z_first_ - level / slope;
+void StraightLine::add(double x, double y) {
+  if (count_ == 0.0) first_ = x;
+  const double way = x - first_;
+  count_ += 1.0;
+  x_ += way;
+  xx_ += way * way;
+  y_ += y;
+  xy_ += way * y;
 }
+
+std::optional<StraightLine::Found> StraightLine::found() const {
+  const double spread = count_ * xx_ - x_ * x_;
+  const double slope = (count_ * xy_ - x_ * y_) / spread;
+  if (count_ < 3.0 || !(spread > 0.0) || slope == 0.0) return std::nullopt;
+  return Found{slope, first_ + (x_ - y_ / slope) / count_};
+}
+
+double linear_in_depth(double force) { return std::cbrt(force * force); }
 
 void SurfaceSearch::add(double time, double z, double force) {
   time_.push_back(time);
@@ -54,20 +59,14 @@ SurfaceSearch::Line SurfaceSearch::line(double surface) const {
       pressed[i] += branch.ratio * memory;
     }
   }
-  double mean_p = 0.0;
-  double mean_f = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    mean_p += pressed[i] / static_cast<double>(n);
-    mean_f += force_[i] / static_cast<double>(n);
-  }
-  double pp = 0.0;
-  double pf = 0.0;
-  double ff = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    pp += (pressed[i] - mean_p) * (pressed[i] - mean_p);
-    pf += (pressed[i] - mean_p) * (force_[i] - mean_f);
-    ff += (force_[i] - mean_f) * (force_[i] - mean_f);
-  }
+  using Values = Eigen::Map<const Eigen::ArrayXd>;
+  const Values p_of(pressed.data(), static_cast<Eigen::Index>(n));
+  const Values f_of(force_.data(), static_cast<Eigen::Index>(n));
+  const Eigen::VectorXd about_p = p_of - p_of.mean();
+  const Eigen::VectorXd about_f = f_of - f_of.mean();
+  const double pp = about_p.squaredNorm();
+  const double pf = about_p.dot(about_f);
+  const double ff = about_f.squaredNorm();
   if (!(pp > 0.0)) return {ff, 0.0};
   return {std::max(0.0, ff - pf * pf / pp), pf / pp};
 }

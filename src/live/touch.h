@@ -1,6 +1,7 @@
 // Finds the surface from the heights and forces that a stand or a gauge measures in a slow press.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -8,20 +9,40 @@
 
 namespace palpate::live {
 
-// The force of a sphere is F = c (z_0 - z)^(3/2), so that F^(2/3) is linear in z and vanishes at
-// the surface z_0 for any stiffness of the tissue. The line is fitted by least squares.
-class TouchLine {
+// Mean and standard deviation of readings; those of a long time, about the last hundred.
+class Readings {
  public:
-  // Adds a reading: height z (m) and force (N), ignored unless above 0. Allocates nothing.
-  void add(double z, double force);
-  // z_0, m; nothing with fewer than three readings or if the force does not grow downwards.
-  [[nodiscard]] std::optional<double> surface() const;
+  double count = 0.0;
+  void add(double force);
+  [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] double deviation() const { return std::sqrt(variance_); }
+
+ private:
+  double mean_ = 0.0, variance_ = 0.0;
+};
+
+// A straight line through points by least squares. Allocates nothing.
+class StraightLine {
+ public:
+  void add(double x, double y);
+  [[nodiscard]] double count() const { return count_; }
+
+  struct Found {
+    double slope = 0.0;
+    double zero = 0.0;  // the x at which the line is 0
+  };
+  // Nothing with fewer than three points, and for a level line.
+  [[nodiscard]] std::optional<Found> found() const;
 
  private:
   double count_ = 0.0;
-  double z_first_ = 0.0;  // m: sums are of z - z_first_, to reduce rounding errors
-  double z_ = 0.0, zz_ = 0.0, y_ = 0.0, zy_ = 0.0;
+  double first_ = 0.0;  // sums are of x - first_, to reduce rounding errors
+  double x_ = 0.0, xx_ = 0.0, y_ = 0.0, xy_ = 0.0;
 };
+
+// F^(2/3): the force of a sphere is F = c (z_0 - z)^(3/2), so that this is linear in z and vanishes
+// at the surface z_0 for any stiffness of the tissue.
+[[nodiscard]] double linear_in_depth(double force);
 
 // The surface from all readings of a slow press, those out of contact as well, so that noise
 // averages: least squares of F = a + c p(t), where p is Lee and Radok's integral [viscous] of

@@ -1,4 +1,4 @@
-// Finds columns by name, number or dimension, and rows by case and segment.
+// Finds columns by name, number or dimension, and rows by case, segment, condition and range.
 #include "measured/columns.h"
 
 #include <algorithm>
@@ -236,6 +236,313 @@ Column find_column(const RawTable& table, const DataLayout& layout, Role role) {
   const std::size_t index =
       wanted.empty() ? only_column(table, layout, role) : named_index(table, wanted, option(role));
   return column_at(table, index, x ? layout.x_unit : layout.y_unit, role);
+}
+
+// Chooses the rows of a case, a segment, a condition and a range.
+
+namespace {
+
+// The words of instruments for the parts of a curve.
+enum class Part { approach, retract, pause, other };
+Part part_of(const std::string& cell) {
+  const std::string held = lower_case(cell);
+  const auto one_of = [&](std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&](const char* word) { return held == word; });
+  };
+  if (one_of({"approach", "extend", "extension", "loading", "load", "forward", "trace", "advance",
+              "indent", "indentation", "compress", "compression", "down", "in", "approaching"}))
+    return Part::approach;
+  if (one_of({"retract", "retraction", "unloading", "unload", "backward", "retrace", "withdraw",
+              "withdrawal", "return", "release", "up", "out", "retracting"}))
+    return Part::retract;
+  if (one_of({"pause", "hold", "holding", "dwell", "contact", "creep", "relax", "relaxation",
+              "wait", "intermediate", "idle"}))
+    return Part::pause;
+  return Part::other;
+}
+
+// Whether a cell names the segment: the same word or number, or an instrument's word for it.
+bool is_segment(const std::string& cell, const std::string& wanted) {
+  const std::string held = lower_case(cell);
+  const std::string asked = lower_case(wanted);
+  if (held == asked) return true;
+  if (asked == "approach") return held == "0" || held == "false" || part_of(cell) == Part::approach;
+  if (asked == "retract") return held == "1" || held == "true" || part_of(cell) == Part::retract;
+  const auto a = whole_number(held);
+  const auto b = whole_number(asked);
+  return a && b && *a == *b;
+}
+
+bool is_same(const std::string& a, const std::string& b) {
+  const auto first = whole_number(a);
+  const auto second = whole_number(b);
+  return a == b || (first && second && *first == *second);
+}
+
+std::vector<std::string> values_in(const RawTable& table, const std::vector<std::size_t>& rows,
+                                   std::size_t column) {
+  std::vector<std::string> values;
+  for (const std::size_t i : rows) {
+    const std::string& value = table.rows[i].fields[column].text;
+    if (std::find(values.rbegin(), values.rend(), value) == values.rend()) values.push_back(value);
+    if (values.size() > 1000) break;
+  }
+  return values;
+}
+
+using Same = bool (*)(const std::string&, const std::string&);
+
+void keep_only(const RawTable& table, Rows& rows, std::size_t column, const std::string& wanted,
+               Same same) {
+  const std::vector<std::string> known = values_in(table, rows.kept, column);
+  std::erase_if(rows.kept,
+                [&](std::size_t i) { return !same(table.rows[i].fields[column].text, wanted); });
+  if (!rows.kept.empty()) return;
+  const auto near = nearest(wanted, known);
+  std::string remedy = "; its values are `" + known.front() + "` and others";
+  if (known.size() < 10)
+    remedy = "; its values are " + joined(known, ", ");
+  else if (near)
+    remedy = "; did you mean `" + *near + "`?";
+  throw InputError(
+      {table.file, table.header_line, 0},
+      "the column `" + table.names[column] + "` contains no `" + wanted + "`" + remedy);
+}
+
+// Whether all rows are those of a retract.
+bool is_retract(const RawTable& table, const Axes& axes, const Rows& rows) {
+  if (!axes.x.unit || !(axes.x.unit->factor.dimension == length)) return false;
+  std::vector<double> x, load;
+  for (const std::size_t i : rows.kept) {
+    const auto number = [&](const Column& column) {
+      return measured_number(table.rows[i].fields[column.index].text, table.decimal)
+          .value_or(std::nan(""));
+    };
+    x.push_back(number(axes.x));
+    load.push_back(number(axes.y));
+  }
+  return only_retracts(x, load);
+}
+
+// Keeps the rows up to the largest change of the load (`approach`), or those after it (`retract`).
+void split_at_peak(const RawTable& table, const DataLayout& layout, const Axes& axes, Rows& rows) {
+  const Column& y = axes.y;
+  const bool approach = layout.segment == "approach";
+  if (!approach && layout.segment != "retract")
+    throw InputError({table.file, table.header_line, 0},
+                     "has no column `segment` or `step` for `--segment " + layout.segment +
+                         "`; give `approach` or `retract`");
+  if (is_retract(table, axes, rows)) {
+    if (approach)
+      throw InputError({table.file, 0, 0},
+                       "goes one way only in `" + axes.x.name +
+                           "`, and its load changes most at its first rows: all of them are the "
+                           "way back; leave `--segment` out, or give `--segment retract`");
+    rows.notes.push_back("`" + axes.x.name +
+                         "` goes one way only, and its load changes most at its first rows: all of "
+                         "them are taken as the retract");
+    return;
+  }
+  std::size_t peak = 0;
+  double largest = -1.0;
+  std::optional<double> start;  // a load cell with an offset does not begin at 0
+  for (std::size_t k = 0; k < rows.kept.size(); ++k) {
+    const auto load = measured_number(table.rows[rows.kept[k]].fields[y.index].text, table.decimal);
+    if (!load || !std::isfinite(*load)) continue;
+    if (!start) start = load;
+    if (std::abs(*load - *start) <= largest) continue;
+    largest = std::abs(*load - *start);
+    peak = k + 1;
+  }
+  if (peak > 0)
+    rows.notes.push_back("the approach ends at the largest load, on line " +
+                         std::to_string(table.rows[rows.kept[peak - 1]].line));
+  const auto middle = rows.kept.begin() + static_cast<std::ptrdiff_t>(peak);
+  if (approach)
+    rows.kept.erase(middle, rows.kept.end());
+  else
+    rows.kept.erase(rows.kept.begin(), middle);
+  if (rows.kept.empty())
+    throw InputError({table.file, 0, 0},
+                     "ends at its largest load and contains no retraction; leave `--segment` out");
+}
+
+// The parts of the chosen rows that follow each other in the table.
+std::vector<std::vector<std::size_t>> parts_of(const std::vector<std::size_t>& before,
+                                               const std::vector<std::size_t>& kept) {
+  std::vector<std::vector<std::size_t>> parts;
+  std::size_t at = 0;
+  bool open = false;
+  for (const std::size_t row : before) {
+    const bool taken = at < kept.size() && kept[at] == row;
+    if (taken && !open) parts.emplace_back();
+    if (taken) {
+      parts.back().push_back(row);
+      ++at;
+    }
+    open = taken;
+  }
+  return parts;
+}
+
+// `approach` or, if the name stands for several parts, `approach:2`.
+void keep_segment(const RawTable& table, const DataLayout& layout, std::size_t column, Rows& rows) {
+  std::string wanted = layout.segment;
+  std::size_t number = 0;
+  if (const std::size_t colon = wanted.rfind(':'); colon != std::string::npos)
+    if (const auto given = whole_number(wanted.substr(colon + 1)); given && *given >= 1.0) {
+      number = static_cast<std::size_t>(*given);
+      wanted.resize(colon);
+    }
+  const std::vector<std::size_t> before = rows.kept;
+  keep_only(table, rows, column, wanted, is_segment);
+  const auto parts = parts_of(before, rows.kept);
+  if (number == 0 && parts.size() == 1) return;
+  std::string lines;
+  for (std::size_t k = 0; k < std::min<std::size_t>(parts.size(), 5); ++k)
+    lines += (k > 0 ? ", " : "") + std::to_string(table.rows[parts[k].front()].line) + " to " +
+             std::to_string(table.rows[parts[k].back()].line);
+  const std::string there = "the column `" + table.names[column] + "` has " +
+                            std::to_string(parts.size()) +
+                            (parts.size() == 1 ? " part" : " parts") + " `" + wanted +
+                            "`, on lines " + lines + (parts.size() > 5 ? ", ..." : "");
+  if (number == 0)
+    throw InputError({table.file, table.header_line, 0},
+                     there + "; choose one, as `--segment " + wanted + ":1`");
+  if (number > parts.size())
+    throw InputError({table.file, table.header_line, 0},
+                     there + ", and `--segment " + layout.segment + "` is not among them");
+  rows.kept = parts[number - 1];
+}
+
+// The column that divides the table into segments: one of that name, or the only one in which every
+// cell is an instrument's word for a part of the curve.
+std::optional<std::size_t> segment_column(const RawTable& table) {
+  for (const char* name : {"segment", "step"})
+    if (const auto found = columns_named(table, name); found.size() == 1) return found.front();
+  std::optional<std::size_t> only;
+  for (std::size_t i = 0; i < table.width(); ++i) {
+    const bool words = std::all_of(table.rows.begin(), table.rows.end(), [&](const RawRow& row) {
+      return part_of(row.fields[i].text) != Part::other;
+    });
+    if (words && only) return std::nullopt;
+    if (words) only = i;
+  }
+  return only;
+}
+
+// The usual segment of a force over a length, where a column of words tells it from other parts.
+void keep_usual(const RawTable& table, const Axes& axes, const std::string& usual, Rows& rows) {
+  const auto is = [](const Column& column, const Dimension& dimension) {
+    return column.unit && column.unit->factor.dimension == dimension;
+  };
+  if (!is(axes.x, length) || !is(axes.y, force)) return;
+  const auto column = segment_column(table);
+  if (!column) return;
+  const bool flags = table.kind == RawTable::Kind::afm_tab;  // of which 0 and False are approaches
+  const Part part = usual == "approach" ? Part::approach : Part::retract;
+  const auto wanted = [&](std::size_t i) {
+    const std::string& cell = table.rows[i].fields[*column].text;
+    return flags ? is_segment(cell, usual) : part_of(cell) == part;
+  };
+  const auto taken = std::count_if(rows.kept.begin(), rows.kept.end(), wanted);
+  const std::size_t all = rows.kept.size();
+  if (taken == 0 || as_index(taken) == all) return;
+  DataLayout layout;
+  layout.segment = usual;
+  keep_segment(table, layout, *column, rows);
+  rows.notes.push_back("the column `" + table.names[*column] + "` divides the curve: its " +
+                       std::to_string(rows.kept.size()) + " rows of the " + usual +
+                       " are taken, of " + std::to_string(all) + "; `--segment " +
+                       (part == Part::approach ? "retract" : "approach") +
+                       "` or `--segment all` takes others");
+}
+
+void keep_where(const RawTable& table, const std::string& condition, Rows& rows) {
+  const std::size_t equals = condition.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(
+        {}, "palpate: `--where " + condition + "` is written COLUMN=VALUE, as `--where Set=1`");
+  const std::string name = trimmed(condition.substr(0, equals));
+  keep_only(table, rows, named_index(table, name, "--where"), trimmed(condition.substr(equals + 1)),
+            is_same);
+}
+
+void keep_range(const RawTable& table, const std::string& range, Rows& rows) {
+  const std::size_t dots = range.find("..");
+  const auto number = [&](const std::string& text, double otherwise) {
+    if (trimmed(text).empty()) return otherwise;
+    const auto value = whole_number(trimmed(text));
+    return value && *value == std::floor(*value) && *value >= 1.0 ? *value : 0.0;
+  };
+  const auto last = static_cast<double>(table.rows.size());
+  const double from = dots == std::string::npos ? 0.0 : number(range.substr(0, dots), 1.0);
+  const double to = dots == std::string::npos ? 0.0 : number(range.substr(dots + 2), last);
+  if (!(from >= 1.0 && to >= from))
+    throw InputError({},
+                     "palpate: `--rows " + range +
+                         "` is written FROM..TO, rows of the table from 1, as `--rows 100..2000`");
+  std::erase_if(rows.kept, [&](std::size_t i) {
+    const auto row = static_cast<double>(i + 1);
+    return row < from || row > to;
+  });
+  if (rows.kept.empty())
+    throw InputError({table.file, 0, 0}, "has " + std::to_string(table.rows.size()) +
+                                             " rows, and `--rows " + range +
+                                             "` leaves none of those chosen");
+}
+
+}  // namespace
+
+bool only_retracts(std::span<const double> x, std::span<const double> load) {
+  std::vector<double> way, change;  // from the first row
+  std::optional<std::size_t> first;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(load[i])) continue;
+    if (!first) first = i;
+    last = i;
+    way.push_back(std::abs(x[i] - x[*first]));
+    change.push_back(std::abs(load[i] - load[*first]));
+  }
+  if (way.size() < 4 || way.back() < 0.9 * *std::max_element(way.begin(), way.end())) return false;
+  if (!(std::abs(load[*first]) > std::abs(load[last]))) return false;
+  const auto most = std::max_element(change.begin(), change.end());
+  const auto half = std::find_if(way.begin(), way.end(), [&](double each) {
+    return each >= 0.5 * way[as_index(most - change.begin())];
+  });
+  return change[as_index(half - way.begin())] > 0.5 * *most;
+}
+
+Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Axes& axes) {
+  Rows rows;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) rows.kept.push_back(i);
+  const bool febio = table.kind == RawTable::Kind::febio_log;
+  const auto equal = [](const std::string& a, const std::string& b) { return a == b; };
+  if (!layout.case_name.empty())
+    keep_only(table, rows, named_index(table, febio ? "item" : "case", "--case"), layout.case_name,
+              equal);
+  else if (febio && values_in(table, rows.kept, 2).size() > 1)
+    throw InputError({table.file, table.header_line, 0},
+                     "contains several items per time; choose one by `--case`, as `--case " +
+                         table.rows.front().fields[2].text + "`");
+  for (const std::string& condition : layout.where) keep_where(table, condition, rows);
+  if (!layout.rows.empty()) keep_range(table, layout.rows, rows);
+  if (layout.segment.empty() || layout.segment == "all") {
+    if (table.tables > 1 && layout.segment.empty() && layout.where.empty() && layout.rows.empty())
+      throw InputError({table.file, 0, 0},
+                       "contains " + std::to_string(table.tables) +
+                           " tables with the same columns; choose one, as `--segment 1`, or take "
+                           "the rows of all by `--segment all`");
+    if (layout.segment.empty()) keep_usual(table, axes, layout.usual, rows);
+    return rows;
+  }
+  if (const auto column = segment_column(table)) {
+    keep_segment(table, layout, *column, rows);
+    return rows;
+  }
+  split_at_peak(table, layout, axes, rows);
+  return rows;
 }
 
 }  // namespace palpate::measured

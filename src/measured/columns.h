@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,10 @@ struct Axes {
   const Column& y;
 };
 [[nodiscard]] Rows chosen_rows(const RawTable& table, const DataLayout& layout, const Axes& axes);
+
+// Whether a load over a length is that of a retract alone, whose rest is its last row: the length
+// goes one way only, the load is larger at its beginning than at its end, and half-way to its
+// largest change more than half of that change is over.
+[[nodiscard]] bool only_retracts(std::span<const double> x, std::span<const double> load);
 
 }  // namespace palpate::measured

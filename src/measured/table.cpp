@@ -10,8 +10,6 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
-#include "measured/blocks.h"
-#include "measured/shape.h"
 #include "measured/unit.h"
 
 namespace palpate::measured {
@@ -55,6 +53,95 @@ std::optional<double> measured_number(std::string_view given, char decimal) {
 }
 
 namespace {
+
+// Whether at least one field is a unit and the others are units, `-` or empty.
+bool is_units_row(std::span<const Piece> fields) {
+  bool any = false;
+  for (const Piece& field : fields) {
+    const std::string& text = field.text;
+    if (text.empty() || text == "-" || text == "[-]" || text == "(-)" || text == "[1]") continue;
+    if (measured_number(text, '.') || !is_unit_word(text)) return false;
+    any = true;
+  }
+  return any;
+}
+
+// Whether a row may be one of units below a row of names: a unit at least, no number, at least half
+// of the cells units, in brackets, `-` or empty, and the others short words.
+bool may_be_units(std::span<const Piece> fields) {
+  std::size_t units = 0;
+  std::size_t silent = 0;
+  for (const Piece& field : fields) {
+    const std::string& text = field.text;
+    if (text.empty() || text == "-" || text == "[-]" || text == "(-)") {
+      ++silent;
+      continue;
+    }
+    if (measured_number(text, '.') || text.size() > 16) return false;
+    const bool brackets = (text.starts_with('[') && text.ends_with(']')) ||
+                          (text.starts_with('(') && text.ends_with(')'));
+    if (brackets || is_unit_word(text)) ++units;
+  }
+  return units > 0 && 2 * (units + silent) >= fields.size();
+}
+
+// A line that is neither blank nor a comment, divided into fields.
+struct TableRow {
+  const Line* line = nullptr;
+  std::vector<Piece> fields;
+  Numbers numbers;     // none in a row of units, in which `-` is a unit
+  bool units = false;  // a row of units
+};
+
+std::vector<TableRow> rows_of(std::span<const Line> lines, const Shape& shape,
+                              const std::string& file) {
+  std::vector<TableRow> rows;
+  rows.reserve(lines.size());
+  for (const Line& line : lines) {
+    if (is_blank(line) || is_comment(line)) continue;
+    TableRow row{&line, pieces_of(line, shape.separator, file), {}, false};
+    row.numbers = numbers_in(row.fields, shape.decimal);
+    const bool below_names = !rows.empty() && rows.back().numbers.count == 0 &&
+                             !rows.back().units && rows.back().line->number + 1 == line.number &&
+                             rows.back().fields.size() >= row.fields.size() &&
+                             row.fields.size() >= 2;
+    row.units =
+        !row.numbers.all && (is_units_row(row.fields) || (below_names && may_be_units(row.fields)));
+    if (row.units) row.numbers = {0, false};
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Neighbouring rows with numbers, [from, to).
+struct Block {
+  std::size_t from = 0, to = 0;
+  std::size_t pairs = 0;  // rows with at least two numbers
+  std::size_t whole = 0;  // rows of nothing but numbers, at least two
+
+  // Whether this block is more of a table than the other.
+  [[nodiscard]] bool above(const Block& other) const {
+    return std::pair(pairs, whole) > std::pair(other.pairs, other.whole);
+  }
+};
+
+std::vector<Block> blocks_of(std::span<const TableRow> rows) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].numbers.count == 0 && !rows[i].numbers.all) continue;
+    const bool follows = !blocks.empty() && blocks.back().to == i;
+    // Words with numbers, in another number of fields, are a heading: `Interval: 2 10`.
+    if (follows && !rows[i].numbers.all && rows[i].fields.size() != rows[i - 1].fields.size() &&
+        rows[i].fields.size() > 1)
+      continue;
+    if (!follows) blocks.push_back({i, i});
+    Block& block = blocks.back();
+    block.to = i + 1;
+    if (rows[i].numbers.count >= 2) ++block.pairs;
+    if (rows[i].numbers.count >= 2 && rows[i].numbers.all) ++block.whole;
+  }
+  return blocks;
+}
 
 void drop_empty_ends(std::vector<Piece>& fields, std::size_t width) {
   while (fields.size() > width && fields.back().text.empty()) fields.pop_back();

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "fit/fit_table.h"
+#include "fit/case_fits.h"
 #include "fit/regression.h"
 #include "plot/figure.h"
 #include "record/record.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/whole_folder.h"
-#include "fit/fit_table.h"
+#include "fit/case_fits.h"
 #include "record/record.h"
 #include "report/manifest.h"
 #include "scenario/family.h"

@@ -13,7 +13,7 @@
 #include "base/shell_word.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "fit/fit_table.h"
+#include "fit/case_fits.h"
 #include "page/html.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/whole_folder.h"
-#include "fit/fit_table.h"
+#include "fit/case_fits.h"
 #include "plot/figure.h"
 #include "record/record.h"
 #include "scenario/family.h"

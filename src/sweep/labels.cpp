@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "base/text.h"
-#include "fit/model.h"
+#include "fit/regression.h"
 #include "record/table.h"
 
 namespace palpate::sweep {

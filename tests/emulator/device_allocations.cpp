@@ -5,10 +5,10 @@
 #include <string>
 
 #include "counted_memory.h"
-#include "device/arm_safety.h"
 #include "device/health.h"
 #include "device/link.h"
-#include "device/ring.h"
+#include "device/safety.h"
+#include "device/tap.h"
 #include "live_emulator.h"
 
 namespace palpate::device {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "device/arm_safety.h"
-#include "device/events.h"
 #include "device/inverse3.h"
+#include "device/inverse3_protocol.h"
 #include "device/link.h"
+#include "device/safety.h"
 #include "live_emulator.h"
 
 namespace palpate::device {

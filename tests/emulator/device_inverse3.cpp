@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "device/arm_safety.h"
 #include "device/link.h"
-#include "device/link_text.h"
+#include "device/safety.h"
 #include "live_emulator.h"
 #include "refusal.h"
 

@@ -1,5 +1,5 @@
 // The crosshead against the formulas of constant acceleration.
-#include "emulator/crosshead.h"
+#include "emulator/stand.h"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include "base/field_writer.h"
 #include "base/files.h"
 #include "emulator/arm.h"
+#include "emulator/files.h"
 #include "emulator/line_gauge.h"
-#include "emulator/mark10.h"
-#include "emulator/settings.h"
+#include "emulator/stand.h"
 #include "temporary_folder.h"
 
 namespace emulator {
@@ -35,8 +35,8 @@ std::string fault_rows(std::span<const FaultKind> kinds) {
 TEST(EmulatorDocs, ListEveryFaultAsItIs) {
   const std::string text = manual();
   const std::size_t both = line_faults().size();
-  for (const auto& kinds :
-       {line_faults(), stand_faults().subspan(both), gauge_faults().subspan(both), arm_faults()})
+  for (const auto& kinds : {line_faults(), stand_faults().subspan(both),
+                            gauge_faults().first(gauge_faults().size() - both), arm_faults()})
     EXPECT_NE(text.find("|---|---|---|\n" + fault_rows(kinds) + "\n"), std::string::npos)
         << fault_rows(kinds);
 }

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "emulator/gauge.h"
-#include "emulator/gcl2.h"
 
 namespace emulator {
 namespace {

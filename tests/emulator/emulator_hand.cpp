@@ -1,5 +1,5 @@
 // The hand against the formulas of a damped oscillator and of minimum jerk.
-#include "emulator/hand.h"
+#include "emulator/arm.h"
 
 #include <gtest/gtest.h>
 

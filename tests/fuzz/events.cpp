@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "device/events.h"
+#include "device/inverse3_protocol.h"
 #include "fuzzing.h"
 
 namespace {

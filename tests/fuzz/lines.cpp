@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "device/line_buffer.h"
-#include "device/line_pattern.h"
+#include "device/line_gauge.h"
+#include "device/serial_port.h"
 #include "fuzzing.h"
 
 // The bytes before the first zero byte are a pattern; the rest arrives in lines. Without a zero

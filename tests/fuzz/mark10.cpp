@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "device/line_buffer.h"
 #include "device/mark10_protocol.h"
+#include "device/serial_port.h"
 #include "fuzzing.h"
 
 // The first byte says in what portions the rest arrives.

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "device/clock.h"
-#include "device/host.h"
 #include "fuzzing.h"
 #include "web_socket.h"
 

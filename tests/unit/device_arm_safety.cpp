@@ -1,5 +1,5 @@
 // The rules of an arm together: whatever comes in and is asked for, what goes out is bounded.
-#include "device/arm_safety.h"
+#include "device/safety.h"
 
 #include <gtest/gtest.h>
 

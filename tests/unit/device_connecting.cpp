@@ -18,7 +18,6 @@
 
 #include "base/error.h"
 #include "device/clock.h"
-#include "device/host.h"
 #include "device/websocket.h"
 #include "refusal.h"
 #include "web_socket.h"

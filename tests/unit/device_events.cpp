@@ -1,5 +1,5 @@
 // An arm's events: which are obeyed, about whom, and what any other bytes come to.
-#include "device/events.h"
+#include "device/inverse3_protocol.h"
 
 #include <gtest/gtest.h>
 

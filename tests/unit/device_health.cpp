@@ -11,8 +11,7 @@
 
 #include "device/clock.h"
 #include "device/inverse3.h"
-#include "device/realtime.h"
-#include "device/ring.h"
+#include "device/tap.h"
 
 namespace palpate::device {
 namespace {

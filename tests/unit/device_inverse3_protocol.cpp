@@ -9,8 +9,6 @@
 #include <random>
 #include <string>
 
-#include "device/json_scanner.h"
-
 namespace palpate::device::inverse3 {
 namespace {
 

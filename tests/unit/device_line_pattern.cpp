@@ -1,5 +1,5 @@
 // Patterns of a gauge's lines: what is read, what is refused, and what a message says of it.
-#include "device/line_pattern.h"
+#include "device/line_gauge.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 // Settings of a gauge: the examples, the defaults, and what is refused with its place.
-#include "device/line_settings.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

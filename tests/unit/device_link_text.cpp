@@ -1,5 +1,5 @@
 // LINK texts: the three forms, and a sentence with all of them for everything else.
-#include "device/link_text.h"
+#include "device/link.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "device/line_buffer.h"
+#include "device/serial_port.h"
 
 namespace palpate::device::mark10 {
 namespace {
@@ -126,12 +126,9 @@ TEST(Mark10Status, InAnyLayout) {
   EXPECT_EQ(parse_status("D M")->moving, Moving::down);
   const auto at_end = parse_status("SLDL");
   EXPECT_EQ(at_end->moving, Moving::stopped);
-  EXPECT_TRUE(at_end->at_lower_limit);
   EXPECT_EQ(parse_status("S L UL")->mode, 'L');
-  EXPECT_TRUE(parse_status("S L UL")->at_upper_limit);
   // Up in limit mode, or at the upper limit: the guide's words do not tell them apart.
   EXPECT_EQ(parse_status("UL")->moving, Moving::unknown);
-  EXPECT_FALSE(parse_status("UL")->at_upper_limit);
   for (const char* text : {"", "1.00 mm", "X", "S!", "stopped", " "})
     EXPECT_FALSE(parse_status(text)) << text;
 }

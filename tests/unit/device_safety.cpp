@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "device/stand_safety.h"
-
 namespace palpate::device {
 namespace {
 

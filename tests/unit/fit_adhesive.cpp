@@ -1,5 +1,5 @@
 // JKR and DMT against their parametric forms and published pull-off forces.
-#include "fit/adhesive.h"
+#include "fit/contact_model.h"
 
 #include <gtest/gtest.h>
 

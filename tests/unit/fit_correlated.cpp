@@ -1,5 +1,5 @@
 // Intervals under correlated noise: how often they contain the truth.
-#include "fit/correlated.h"
+#include "fit/residuals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // fits.csv: the columns of the manual, and nothing where nothing is known.
-#include "fit/fit_table.h"
+#include "fit/case_fits.h"
 
 #include <gtest/gtest.h>
 

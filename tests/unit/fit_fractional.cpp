@@ -1,5 +1,5 @@
 // Spring-pots and the fractional Zener model against closed forms.
-#include "fit/fractional.h"
+#include "fit/prony.h"
 
 #include <gtest/gtest.h>
 

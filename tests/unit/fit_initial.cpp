@@ -1,5 +1,5 @@
 // The first guess of a search lies beside the truth, whatever the scale.
-#include "fit/initial.h"
+#include "fit/regression.h"
 
 #include <gtest/gtest.h>
 

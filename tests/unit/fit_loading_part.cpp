@@ -1,5 +1,5 @@
 // Steps, cycles, ruptures and laws of two directions in curves whose truth is known.
-#include "fit/loading_part.h"
+#include "fit/parts.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 
 #include "base/index.h"
 #include "base/text.h"
-#include "fit/step_origin.h"
 #include "fit/uniaxial.h"
 #include "refusal.h"
 

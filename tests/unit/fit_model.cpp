@@ -1,5 +1,5 @@
 // The table of models: names, units, slopes.
-#include "fit/model.h"
+#include "fit/regression.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Non-negative least squares against its conditions of optimality.
-#include "fit/nnls.h"
+#include "fit/prony.h"
 
 #include <gtest/gtest.h>
 

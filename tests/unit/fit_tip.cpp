@@ -1,5 +1,5 @@
 // Laws of tips against closed numbers, their limits and their own slopes.
-#include "fit/tip.h"
+#include "fit/contact_search.h"
 
 #include <gtest/gtest.h>
 

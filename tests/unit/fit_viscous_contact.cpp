@@ -1,5 +1,5 @@
 // Viscoelastic contact against its closed forms: Lee and Radok's approach, Ting's way back.
-#include "fit/viscous_contact.h"
+#include "fit/contact_model.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Means of long records: nothing is lost of noise, corners and jumps stay where they are.
-#include "identify/averaged.h"
+#include "identify/prepare_curve.h"
 
 #include <gtest/gtest.h>
 

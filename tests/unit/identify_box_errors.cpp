@@ -1,11 +1,11 @@
 // Errors, ties and tests of residuals, on slopes that are known.
-#include "identify/box_errors.h"
+#include "identify/box_search.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fit/residual_tests.h"
+#include "fit/residuals.h"
 
 namespace palpate::identify {
 namespace {

@@ -1,5 +1,5 @@
 // Ends of a profile against curves whose squares are known.
-#include "identify/box_profile.h"
+#include "identify/box_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The loading history reaches the last row of the measurement, and nothing is shortened.
-#include "identify/lengthen.h"
+#include "identify/scenario_curve.h"
 
 #include <gtest/gtest.h>
 

@@ -189,7 +189,7 @@ TEST(ScenarioCurve, HasAClosedFormOfWhatTheFormulaDescribes) {
       measured.x_dimension = {};
       measured.y_dimension = {-1, 1, -2};
     }
-    return Prepared(text, measured, asked).curve.curve->closed().has_value();
+    return Prepared(text, measured, asked).curve.curve->has_formula();
   };
   const std::string press_text = ball + to_2_mm;
   EXPECT_TRUE(closed(press_text, "", "", young_only));

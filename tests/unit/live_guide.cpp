@@ -1,5 +1,5 @@
 // The programme as guidance, and the surface that is felt.
-#include "live/guide.h"
+#include "live/loop.h"
 
 #include <gtest/gtest.h>
 
@@ -68,15 +68,17 @@ TEST(Guide, SaysWhatTheHandIsToDo) {
   EXPECT_EQ(guidance(steps[4]), "withdraw to 0 mm at about 5 mm/s");
 }
 
-TEST(TouchLine, FindsWhereAHertzContactBegan) {
+TEST(StraightLine, FindsWhereAHertzContactBegan) {
   for (const double stiffness : {1e2, 1e5}) {  // N m^(-3/2)
-    TouchLine line;
+    StraightLine line;
     for (int i = 1; i <= 20; ++i) {
       const double depth = 1e-4 + 1e-5 * i;
-      line.add(-0.037 - depth, stiffness * depth * std::sqrt(depth));
+      line.add(-0.037 - depth, linear_in_depth(stiffness * depth * std::sqrt(depth)));
     }
-    ASSERT_TRUE(line.surface());
-    EXPECT_NEAR(*line.surface(), -0.037, 1e-12);  // rounding
+    ASSERT_TRUE(line.found());
+    EXPECT_NEAR(line.found()->zero, -0.037, 1e-12);  // rounding
+    EXPECT_NEAR(line.found()->slope, -std::cbrt(stiffness * stiffness),
+                1e-9 * std::cbrt(stiffness * stiffness));
   }
 }
 
@@ -128,20 +130,18 @@ TEST(SurfaceSearch, FindsNothingWhereNothingIs) {
   EXPECT_FALSE(SurfaceSearch(elastic).find());
 }
 
-TEST(TouchLine, KnowsNothingFromTooLittle) {
-  TouchLine line;
-  EXPECT_FALSE(line.surface());
+TEST(StraightLine, KnowsNothingFromTooLittle) {
+  StraightLine line;
+  EXPECT_FALSE(line.found());
   line.add(-1e-3, 0.01);
   line.add(-2e-3, 0.02);
-  EXPECT_FALSE(line.surface()) << "two readings are a line whatever they are";
-  line.add(-3e-3, -0.02);
-  EXPECT_FALSE(line.surface()) << "no contact pulls";
-  TouchLine upwards;
-  for (int i = 0; i < 5; ++i) upwards.add(1e-3 * i, 0.01 + 0.01 * i);
-  EXPECT_FALSE(upwards.surface()) << "it grows upwards";
-  TouchLine still;
-  for (int i = 0; i < 5; ++i) still.add(-1e-3, 0.01);
-  EXPECT_FALSE(still.surface());
+  EXPECT_FALSE(line.found()) << "two points are a line whatever they are";
+  StraightLine upright;
+  for (int i = 0; i < 5; ++i) upright.add(-1e-3, 0.01 * i);
+  EXPECT_FALSE(upright.found());
+  StraightLine level;
+  for (int i = 0; i < 5; ++i) level.add(-1e-3 * i, 0.0);
+  EXPECT_FALSE(level.found());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The model beside a device is the model of `run`, and closed forms allocate nothing.
-#include "live/model.h"
+#include "live/loop.h"
 
 #include <gtest/gtest.h>
 
@@ -127,7 +127,7 @@ TEST(LiveModel, PredictsTheForceOfTheDeepestTravel) {
   const scene::Scene scene = test::scene_of(viscous + press_programme);
   LiveModel pressed(scene);
   const FrameCost cost = predict_cost(scene, pressed, 1e-3, 100);
-  EXPECT_FALSE(cost.wrong);
+  EXPECT_GT(cost.median, 0.0);
   EXPECT_GE(cost.p99, cost.median);
   LiveModel model(scene);
   for (int i = 0; i <= 200; ++i)
