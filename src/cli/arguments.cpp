@@ -6,7 +6,7 @@
 #include "device/link_text.h"
 #include "fit/model.h"
 #include "report/export.h"
-#include "scenario/starters.h"
+#include "scenario/schema.h"
 
 namespace palpate::cli {
 namespace {

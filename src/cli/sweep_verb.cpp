@@ -15,7 +15,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/index.h"
-#include "base/shell_word.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "cli/arguments.h"

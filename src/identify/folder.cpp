@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/shell_word.h"
 #include "base/text.h"
 #include "identify/tables.h"
 #include "page/page.h"

@@ -6,7 +6,7 @@
 #include "device/arm_safety.h"
 #include "live/guide.h"
 #include "live/loop.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 
 namespace palpate::live {
 namespace {

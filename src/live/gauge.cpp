@@ -11,7 +11,7 @@
 #include "live/guide.h"
 #include "live/loop.h"
 #include "live/touch.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 #include "scenario/programme.h"
 
 namespace palpate::live {

@@ -10,7 +10,7 @@
 #include "live/guide.h"
 #include "live/loop.h"
 #include "live/touch.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 
 namespace palpate::live {
 namespace {

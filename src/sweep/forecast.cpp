@@ -11,15 +11,14 @@
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "run/cost.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scenario/programme.h"
 #include "scene/estimates.h"
 #include "scene/specimen_shape.h"
 #include "scene/surface_displacement_store.h"
-#include "sweep/case_row.h"
 #include "sweep/plan.h"
+#include "sweep/row.h"
 
 namespace palpate::sweep {
 namespace {

@@ -1,15 +1,25 @@
 // Makes a plan from copies of its inputs in a temporary folder, which is then renamed.
 #include "sweep/plan.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "base/document.h"
+#include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "base/whole_folder.h"
@@ -20,14 +30,13 @@
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
 #include "sweep/journal.h"
-#include "sweep/plan_file.h"
 #include "sweep/row.h"
-#include "sweep/shard.h"
 
 namespace palpate::sweep {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 // A case as a row of plan.csv.
 struct PlannedCase {
@@ -305,5 +314,139 @@ SweepPlan read_plan(const std::string& folder, const std::string& program) {
   if (plan.family.base.title.empty()) plan.family.title = file.name;
   return plan;
 }
+
+std::string plan_text(const PlanFile& file) {
+  Json json;
+  json["palpate_sweep"] = 1;  // version of the file format
+  json["program"] = file.program;
+  json["scenario"] = file.name;
+  json["settings"] = file.settings;
+  json["curves"] = file.curves;
+  json["cases"] = file.cases;
+  if (file.model) json["model"] = scenario::traits(*file.model).word;  // of `auto`, for all cases
+  json["plan_csv_sha256"] = file.csv_hash;
+  json["inputs"] = Json::array();
+  for (const auto& [name, hash] : file.inputs)
+    json["inputs"].push_back({{"name", name}, {"sha256", hash}});
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+PlanFile read_plan_file(const std::string& text, const std::string& path) {
+  PlanFile file;
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("palpate_sweep") != 1) throw std::runtime_error("another form");
+    file.program = json.at("program");
+    file.name = json.at("scenario");
+    file.settings = json.at("settings").get<std::vector<std::string>>();
+    file.curves = json.at("curves");
+    const Json& cases = json.at("cases");
+    if (!cases.is_number_unsigned()) throw std::runtime_error("no number of cases");
+    file.cases = cases;
+    if (json.contains("model")) {
+      const auto named = [&](const scenario::ModelTraits& traits) {
+        return json["model"] == traits.word;
+      };
+      const auto* traits =
+          std::find_if(scenario::model_table.begin(), scenario::model_table.end(), named);
+      if (traits == scenario::model_table.end()) throw std::runtime_error("no model");
+      file.model = traits->of;
+    }
+    file.csv_hash = json.at("plan_csv_sha256");
+    for (const Json& input : json.at("inputs"))
+      file.inputs.emplace_back(input.at("name"), input.at("sha256"));
+  } catch (const std::exception&) {
+    throw InputError({path, 0, 0},
+                     "is damaged, or made by another version; put it back, or plan anew");
+  }
+  return file;
+}
+
+std::string differences(const PlanFile& a, const PlanFile& b) {
+  std::vector<std::string> names;
+  if (a.program != b.program) names.emplace_back("version of the program");
+  if (a.curves != b.curves) names.emplace_back("`--curves`");
+  if (a.cases != b.cases)
+    names.push_back("number of cases (" + std::to_string(a.cases) + ", not " +
+                    std::to_string(b.cases) + ")");
+  for (const auto& [name, hash] : b.inputs) {
+    bool same = false;
+    for (const auto& known : a.inputs) same = same || known == std::pair(name, hash);
+    if (!same) names.push_back(ticked(name));
+  }
+  if (names.empty()) names.emplace_back("`--set`");
+  return joined(names, ", ");
+}
+
+HashedNames hashed_inputs(const scenario::Family& family) {
+  HashedNames names;
+  for (const scenario::InputFile& input : family.inputs)
+    names.emplace_back(input.name, sha256(input.content));
+  return names;
+}
+
+std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
+  // What only says how results are shown, or is left open, and did not exist when the first plans
+  // were made, changes no id: ids name results of years.
+  constexpr std::array<std::string_view, 7> later{
+      "paper = ",  "picture = ",   "png = ",         "regression = ",
+      "report = ", "tissue_at = ", "size = \"auto\""};
+  std::string text;
+  for (const std::string& line : split(scenario::spelled_out(one), '\n'))
+    if (std::none_of(later.begin(), later.end(),
+                     [&](std::string_view key) { return line.starts_with(key); }))
+      text += (text.empty() ? "" : "\n") + line;
+  if (one.at_least && *one.at_least != scenario::Model::hertz && !one.scenario.solver.model)
+    text += std::string("\nat_least = ") + scenario::traits(*one.at_least).word;
+  for (const auto& [name, hash] : files)
+    if (std::find(one.files.begin(), one.files.end(), name) != one.files.end())
+      text += name + " " + hash + "\n";
+  return id_of(sha256(text).substr(0, 16)).value_or(0);
+}
+
+std::uint64_t twin_id(std::uint64_t id, std::size_t number) {
+  return id_of(sha256(id_text(id) + " " + std::to_string(number)).substr(0, 16)).value_or(0);
+}
+
+std::string Shard::text() const { return std::to_string(number) + "-of-" + std::to_string(of); }
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto number = whole_number(text.substr(0, slash));
+  const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
+  constexpr double most = 1e8;  // as `--of`; a double beyond 2^64 has no whole number of its own
+  if (!number || !of || *number < 1.0 || *number > *of || *of > most ||
+      std::fmod(*number, 1.0) != 0.0 || std::fmod(*of, 1.0) != 0.0)
+    throw InputError({}, "`--shard` wants a part and the number of parts, got `" + text +
+                             "`; write `--shard 3/16`");
+  return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
+}
+
+FolderLock::FolderLock(const std::string& folder, const std::string& name) {
+  make_folders(folder + "/locks");
+  const std::string path = folder + "/locks/" + name + ".lock";
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) throw SystemError(path + " cannot be made: " + std::strerror(errno));
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    const int reason = errno;
+    if (reason == ENOSYS || reason == ENOLCK || reason == EOPNOTSUPP) {
+      warning_ = folder + ": its file system has no locks, so that two processes may run part " +
+                 name + " at once, which costs time and does no harm";
+      return;
+    }
+    ::close(file_);
+    const std::string text = trimmed(read_text(path));
+    const std::string who = text.empty() ? "another process" : text;
+    if (reason == EWOULDBLOCK)
+      throw PartIsRun({folder, 0, 0}, "part " + name + " is run already, by " + who +
+                                          "; wait for it, or run another `--shard`");
+    throw SystemError(path + " cannot be locked: " + std::strerror(reason));
+  }
+  const std::string who = "process " + std::to_string(::getpid()) + " on " + host_name() + "\n";
+  // The text only informs users: if it cannot be written, the lock holds all the same.
+  if (::ftruncate(file_, 0) != 0 || ::pwrite(file_, who.data(), who.size(), 0) < 0) return;
+}
+
+FolderLock::~FolderLock() { ::close(file_); }
 
 }  // namespace palpate::sweep

@@ -10,7 +10,7 @@
 #include "live/guide.h"
 #include "live/log.h"
 #include "live/model.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 #include "scenario/words.h"
 #include "scene/first_touch.h"
 #include "scene_text.h"
