@@ -32,7 +32,7 @@
 #include "scene/proportions.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
-#include "sweep/forecast.h"
+#include "sweep/plan.h"
 
 namespace palpate::cli {
 namespace {

@@ -24,7 +24,6 @@
 #include "cli/verbs.h"
 #include "report/family_figures.h"
 #include "sweep/columns.h"
-#include "sweep/forecast.h"
 #include "sweep/journal.h"
 #include "sweep/merge.h"
 #include "sweep/plan.h"
