@@ -1,7 +1,10 @@
-# Writes a .cpp that holds a text file as a string.  -DSOURCE=... -DTARGET=...
-file(READ ${SOURCE} text)
-string(LENGTH "${text}" length)
-get_filename_component(name ${SOURCE} NAME)
-file(WRITE ${TARGET} "#include <string_view>\nnamespace palpate::material {\n"
-     "extern const std::string_view chen2007_text;\n"
-     "const std::string_view chen2007_text = R\"toml(${text})toml\";\n}\n")
+# Writes a .cpp that holds text files as strings of a room: NAME_text for NAME.toml.
+# -DROOM=... "-DSOURCES=...;..." -DTARGET=...
+set(strings "")
+foreach(source IN LISTS SOURCES)
+  file(READ ${source} text)
+  get_filename_component(name ${source} NAME_WE)
+  string(APPEND strings "extern const std::string_view ${name}_text;\n"
+         "const std::string_view ${name}_text = R\"text(${text})text\";\n")
+endforeach()
+file(WRITE ${TARGET} "#include <string_view>\nnamespace palpate::${ROOM} {\n${strings}}\n")

@@ -19,6 +19,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/index.h"
 #include "base/stop_scope.h"
 
@@ -157,16 +158,6 @@ void limit(decltype(RLIMIT_AS) resource, double amount) {
       value.rlim_max == RLIM_INFINITY ? INFINITY : static_cast<double>(value.rlim_max);
   value.rlim_cur = static_cast<rlim_t>(std::min(amount, hard));
   ::setrlimit(resource, &value);
-}
-
-bool write_all(int file, const std::string& bytes) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t count = ::write(file, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno != EINTR) return false;
-    if (count > 0) done += as_index(count);
-  }
-  return true;
 }
 
 // All that a forked child does. Stdio buffers copied from the parent are never flushed: whatever a

@@ -270,6 +270,28 @@ std::string Node::shown() const {
   return kind_name();
 }
 
+Node text_node(std::string text) {
+  Node node;
+  node.kind = Node::Kind::text;
+  node.text = std::move(text);
+  return node;
+}
+
+Node number_node(double number) {
+  Node node;
+  const bool digits = number_text(number).find_first_not_of("-0123456789") == std::string::npos;
+  node.kind = digits ? Node::Kind::integer : Node::Kind::real;
+  node.number = number;
+  return node;
+}
+
+Node list_node(std::vector<Node> items) {
+  Node node;
+  node.kind = Node::Kind::array;
+  node.items = std::move(items);
+  return node;
+}
+
 void refuse_no_text(std::string_view text, const std::string& file, const std::string& remedy) {
   const std::size_t binary = first_binary_byte(text);
   if (binary < text.size())
@@ -357,19 +379,6 @@ void set_place(Node& node, const Place& place) {
   }
 }
 
-namespace {
-
-bool is_toml(const std::string& text) {
-  try {
-    (void)toml::parse(text);
-    return true;
-  } catch (const toml::parse_error&) {
-    return false;
-  }
-}
-
-}  // namespace
-
 void set_value(Node& root, std::string_view path, Node value, const Place& origin) {
   Node* node = &root;
   Member* last = nullptr;
@@ -430,10 +439,8 @@ std::pair<std::string, Node> parse_assignment(const std::string& assignment) {
                        "a setting holds one value; write each key with a `--set` of its own");
     node = convert(*table.get("value"), origin.file);
   } catch (const toml::parse_error&) {
-    node.kind = Node::Kind::text;
-    node.text = value;
-    // Any text with escape sequences is TOML, unless its bytes are not UTF-8.
-    if (!is_toml("value = " + toml_text(value)))
+    node = text_node(value);
+    if (first_broken_character(value) < value.size())
       throw InputError({"--set " + path, 0, 0}, "the value is not UTF-8 text; write it in UTF-8");
   }
   set_place(node, origin);

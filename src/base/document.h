@@ -36,6 +36,11 @@ struct Member {
   Node value;
 };
 
+// Values that no file holds: a number is an integer where its text has digits alone.
+[[nodiscard]] Node text_node(std::string text);
+[[nodiscard]] Node number_node(double number);
+[[nodiscard]] Node list_node(std::vector<Node> items);
+
 // Parses a whole TOML document; `file` is the name that places contain. Throws InputError if the
 // text is empty, is not UTF-8 text, is not TOML or gives a key twice.
 [[nodiscard]] Node parse_toml(std::string_view text, const std::string& file);

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace palpate {
 
@@ -11,8 +14,14 @@ struct Doing {
   std::size_t done = 0, all = 0;  // steps; 0 of 0 where they are not counted
 };
 
-// Thread-safe; doing() is what any thread set last.
-void set_doing(Doing now);
-[[nodiscard]] Doing doing();
+// What any thread set last; sets `next` where there is one. Thread-safe.
+inline Doing doing(std::optional<Doing> next = std::nullopt) {
+  static std::mutex mutex;
+  static Doing now;
+  const std::scoped_lock lock(mutex);
+  if (next) now = std::move(*next);
+  return now;
+}
+inline void set_doing(Doing next) { (void)doing(std::move(next)); }
 
 }  // namespace palpate

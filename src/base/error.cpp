@@ -5,11 +5,12 @@
 #include <tuple>
 #include <utility>
 
+#include "base/text.h"
+
 namespace palpate {
 
 std::string Place::text() const {
-  std::string text;
-  for (const char c : file) text += c == '\n' ? std::string("\\x0a") : std::string(1, c);
+  std::string text = one_line(file);
   if (line > 0) text += ":" + std::to_string(line);
   if (line > 0 && column > 0) text += ":" + std::to_string(column);
   return text;

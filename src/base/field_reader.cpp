@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "base/field_writer.h"
-#include "base/plausible_unit.h"
 #include "base/text.h"
 
 namespace palpate {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/document.h"
 #include "base/fields.h"
 
 namespace palpate {
@@ -22,9 +23,7 @@ struct RangeWords {
 
 // Keys that have no effect for the present values are written only with `Written::all`.
 enum class Written { used, all };
+[[nodiscard]] Node fields_as_node(const Fields& fields, Written written = Written::used);
 [[nodiscard]] std::string fields_as_toml(const Fields& fields, Written written = Written::used);
-
-// A reference of every key in Markdown: type, range, default, meaning and when it is used.
-[[nodiscard]] std::string fields_as_manual(const Fields& fields);
 
 }  // namespace palpate

@@ -102,6 +102,15 @@ class Source {
 
 }  // namespace
 
+bool write_all(int file, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written < 0 && errno != EINTR) return false;
+    content.remove_prefix(as_index(std::max<ssize_t>(written, 0)));
+  }
+  return true;
+}
+
 std::string read_text(const std::string& path) {
   Source source(path);
   source.check_size(source.size());
@@ -190,11 +199,7 @@ void HeldFile::write(const std::string& path, std::string_view content, Disk dis
     (void)!::fchown(file, there.st_uid, there.st_gid);
     check(::fchmod(file, there.st_mode & 07777) == 0);
   }
-  while (!content.empty()) {
-    const ssize_t written = ::write(file, content.data(), content.size());
-    check(written >= 0 || errno == EINTR);
-    content.remove_prefix(as_index(std::max<ssize_t>(written, 0)));
-  }
+  check(write_all(file, content));
   // Where the system cannot begin early, sync_file() does all.
   if (disk == Disk::now)
     check(::fsync(file) == 0);
@@ -245,11 +250,7 @@ void write_through(const std::string& path, std::string_view content) {
     throw SystemError(path + " cannot be written: " + std::strerror(error));
   };
   check(file >= 0);
-  while (!content.empty()) {
-    const ssize_t written = ::write(file, content.data(), content.size());
-    check(written >= 0 || errno == EINTR);
-    content.remove_prefix(as_index(std::max<ssize_t>(written, 0)));
-  }
+  check(write_all(file, content));
   if (::close(file) != 0) throw SystemError(path + " cannot be written: " + std::strerror(errno));
 }
 
@@ -385,19 +386,13 @@ GrowingFile::GrowingFile(std::string path) : path_(std::move(path)) {
 GrowingFile::~GrowingFile() { ::close(file_); }
 
 void GrowingFile::append(std::string_view text) {
-  std::string_view left = text;
-  while (!left.empty()) {
-    const ssize_t written = ::write(file_, left.data(), left.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int error = errno;
-      if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
-        // The incomplete line stays; a reader recognises it as such.
-      }
-      ::lseek(file_, static_cast<off_t>(size_), SEEK_SET);
-      throw SystemError(path_ + " cannot be written: " + std::strerror(error));
+  if (!write_all(file_, text)) {
+    const int error = errno;
+    if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
+      // The incomplete line stays; a reader recognises it as such.
     }
-    left.remove_prefix(as_index(written));
+    ::lseek(file_, static_cast<off_t>(size_), SEEK_SET);
+    throw SystemError(path_ + " cannot be written: " + std::strerror(error));
   }
   size_ += text.size();
 }

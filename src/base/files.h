@@ -13,6 +13,9 @@ namespace palpate {
 // (as a pipe 256 MiB, as a device 64 MiB), and if reading fails before the end.
 [[nodiscard]] std::string read_text(const std::string& path);
 
+// Writes to an open file; false, with the reason in errno, if not all could be written.
+[[nodiscard]] bool write_all(int file, std::string_view content);
+
 // Replaces a file whole, by a temporary one on the disk, which gets the mode of the old one; makes
 // its folder; writes into a device, a pipe or a link's target. Throws SystemError (full disk, no
 // permission), the file as it was. With Disk::later the new content is only on its way to the disk,

@@ -1,14 +1,12 @@
-// The visitor that collects all keys, and the list of their paths.
+// The visitor that collects all keys, the list of their paths, and the manual.
 #include "base/key_tree.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
-#include "base/document.h"
+#include "base/field_writer.h"
 #include "base/text.h"
-#include "base/unit_factor.h"
+#include "base/units.h"
 
 namespace palpate {
 namespace {
@@ -19,33 +17,46 @@ class Collector final : public FieldVisitor {
  public:
   explicit Collector(KeyTree& root) : table_(&root), keys_(&root.keys) {}
 
-  void real(const Key& key, std::optional<double>&, const Real& kind) override {
+  void real(const Key& key, std::optional<double>& value, const Real& kind) override {
     KeyTree& one = add(key, kind.unit != nullptr ? Kind::quantity : Kind::number);
     if (kind.unit != nullptr) one.units = {*kind.unit};
     one.range = kind.range;
     one.open = kind.open;
+    if (value)
+      one.fallback = kind.unit != nullptr ? quantity_text(*value, *kind.unit) : number_text(*value);
+    else if (kind.open != nullptr)
+      one.fallback = kind.open;
   }
-  void whole(const Key& key, std::optional<int>&, const Whole& kind) override {
+  void whole(const Key& key, std::optional<int>& value, const Whole& kind) override {
     KeyTree& one = add(key, Kind::whole);
     one.range = kind.range;
     one.open = kind.open;
+    one.fallback = value ? std::to_string(*value) : kind.open;
   }
-  void either(const Key& key, Target&, const Unit& first, const Unit& second,
+  void either(const Key& key, Target& target, const Unit& first, const Unit& second,
               const Range& range) override {
     KeyTree& one = add(key, Kind::quantity);
     one.units = {first, second};
     one.range = range;
+    one.fallback = quantity_text(target.value, target.second ? second : first);
   }
-  void text(const Key& key, std::string&) override { add(key, Kind::text); }
-  void flag(const Key& key, bool&) override { add(key, Kind::flag); }
+  void text(const Key& key, std::string& value) override { add(key, Kind::text).fallback = value; }
+  void flag(const Key& key, bool& value) override {
+    add(key, Kind::flag).fallback = value ? "true" : "false";
+  }
   void quantities(const Key& key, std::span<double> si, const Unit& unit,
                   const Range& range) override {
     KeyTree& one = list(key, Kind::quantity, range);
     one.units = {unit};
     one.size = si.size();
+    for (const double value : si)
+      one.fallback += (one.fallback.empty() ? "" : ", ") + quantity_text(value, unit);
   }
   void counts(const Key& key, std::span<int> values, const Range& range) override {
-    list(key, Kind::whole, range).size = values.size();
+    KeyTree& one = list(key, Kind::whole, range);
+    one.size = values.size();
+    for (const int value : values)
+      one.fallback += (one.fallback.empty() ? "" : ", ") + std::to_string(value);
   }
   void quantity_list(const Key& key, std::vector<double>&, const Unit& unit,
                      const Range& range) override {
@@ -55,8 +66,10 @@ class Collector final : public FieldVisitor {
                        const Range& range) override {
     add(key, Kind::names).range = range;
   }
-  void choice_of(const Key& key, int&, std::span<const Word> words) override {
-    add(key, Kind::word).words.assign(words.begin(), words.end());
+  void choice_of(const Key& key, int& index, std::span<const Word> words) override {
+    KeyTree& one = add(key, Kind::word);
+    one.words.assign(words.begin(), words.end());
+    one.fallback = words[as_index(index)].word;
   }
   void table(const Key& key, const Fields& fields) override {
     inside(add(key, Kind::table), [&] { fields(*this); });
@@ -77,6 +90,7 @@ class Collector final : public FieldVisitor {
       table.alternatives.push_back({words[i], std::move(keys)});
     }
     keys_ = &table.keys;
+    table.chosen = chosen;
     choose(chosen);
   }
 
@@ -152,146 +166,77 @@ std::vector<FlatKey> flat_keys(const KeyTree& tree) {
 
 namespace {
 
-using Kind = KeyTree::Kind;
-
-// TOML's texts in double quotes are JSON's.
-std::string json_text(const std::string& text) { return toml_text(text); }
-
-std::string any_of(std::vector<std::string> schemas) {
-  std::vector<std::string> different;
-  for (std::string& schema : schemas)
-    if (std::find(different.begin(), different.end(), schema) == different.end())
-      different.push_back(std::move(schema));
-  return different.size() == 1 ? different[0] : json_object({{"anyOf", json_array(different)}});
-}
-
-std::string number(Kind kind, const Range& range) {
-  JsonMembers members{{"type", kind == Kind::whole ? json_text("integer") : json_text("number")}};
-  if (std::isfinite(range.low))
-    members.emplace_back(range.low_allowed ? "minimum" : "exclusiveMinimum",
-                         number_text(range.low));
-  if (std::isfinite(range.high))
-    members.emplace_back(range.high_allowed ? "maximum" : "exclusiveMaximum",
-                         number_text(range.high));
-  return json_object(members);
-}
-
-// A number and a unit as one text. Of the range the sign alone is checked.
-std::string quantity(const KeyTree& key) {
-  std::string units;
-  for (const Unit& unit : key.units)
-    units += (units.empty() ? "" : "|") + unit_pattern(unit.dimension);
-  const std::string sign = key.range.low >= 0.0 ? "\\+?" : "[-+]?";
-  return json_object({{"type", json_text("string")},
-                      {"pattern", json_text("^\\s*" + sign +
-                                            "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*(" +
-                                            units + ")\\s*$")}});
-}
-
-std::string one_value(const KeyTree& key, Kind kind) {
-  return kind == Kind::quantity ? quantity(key) : number(kind, key.range);
-}
-
-std::string one_word(const std::string& word) { return json_object({{"const", json_text(word)}}); }
-
-std::string table(const KeyTree& key, JsonMembers members, const JsonMembers& further);
-
-std::string value(const KeyTree& key) {
-  JsonMembers members;
-  std::string meaning = key.meaning;
+// Which values a key takes, as a cell of the manual's tables.
+std::string values_of(const KeyTree& key) {
+  const auto limited = [&](const std::string& what, const Unit* unit) {
+    const std::string bounds = range_text(key.range, unit, {">= ", "> ", "<= ", "< ", "= "});
+    return what + (bounds.empty() ? "" : " ") + bounds;
+  };
+  const std::string or_word = key.open != nullptr ? "`\"" + std::string(key.open) + "\"` or " : "";
   switch (key.kind) {
-    case Kind::number:
-    case Kind::whole:
+    case Kind::number: return or_word + limited("number", nullptr);
+    case Kind::whole: return or_word + limited("whole number", nullptr);
     case Kind::quantity:
-      members = {{"allOf", json_array({key.open == nullptr ? one_value(key, key.kind)
-                                                           : any_of({one_value(key, key.kind),
-                                                                     one_word(key.open)})})}};
-      break;
-    case Kind::text: members = {{"type", json_text("string")}}; break;
-    case Kind::flag: members = {{"type", json_text("boolean")}}; break;
+      return or_word + limited(key.units[0].quantity, key.units.data()) +
+             (key.units.size() > 1 ? std::string(" or ") + key.units[1].quantity : "");
+    case Kind::text: return "text";
+    case Kind::flag: return "`true` or `false`";
     case Kind::word: {
-      std::vector<std::string> words;
-      for (const Word& word : key.words) {
-        words.push_back(json_text(word.word));
-        if (*word.meaning != '\0') meaning += std::string(" `") + word.word + "`: " + word.meaning;
-      }
-      members = {{"enum", json_array(words)}};
-      break;
+      std::string words;
+      for (const Word& word : key.words)
+        words += (words.empty() ? "`\"" : "<br>`\"") + std::string(word.word) + "\"`" +
+                 (*word.meaning != '\0' ? ": " : "") + word.meaning;
+      return words;
     }
     case Kind::list:
-      members = {{"type", json_text("array")}, {"items", one_value(key, key.item)}};
-      if (key.size) {
-        members.emplace_back("minItems", std::to_string(*key.size));
-        members.emplace_back("maxItems", std::to_string(*key.size));
-      }
-      break;
-    case Kind::names:
-      members = {{"type", json_text("object")},
-                 {"additionalProperties", number(Kind::number, key.range)}};
-      break;
-    case Kind::table: return table(key, {{"description", json_text(meaning)}}, {});
-    case Kind::tables:
-      return json_object({{"description", json_text(meaning)},
-                          {"type", json_text("array")},
-                          {"items", table(key, {}, {})}});
+      if (!key.size)
+        return limited(std::string("list, each a ") + key.units[0].quantity, &key.units[0]);
+      return "list of " + std::to_string(*key.size) +
+             (key.item == Kind::whole
+                  ? limited(" whole numbers", nullptr)
+                  : limited(std::string(" times ") + key.units[0].quantity, key.units.data()));
+    case Kind::names: return limited("table of name = number", nullptr);
+    case Kind::table:
+    case Kind::tables: break;
   }
-  members.insert(members.begin(), {"description", json_text(meaning)});
-  return json_object(members);
+  return "";
 }
 
-// A table allows the keys of all its kinds; where `kind` is given, those of that kind only.
-std::string table(const KeyTree& key, JsonMembers members, const JsonMembers& further) {
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<std::string>> schemas;
-  const auto add = [&](const std::string& name, const std::string& schema) {
-    if (!schemas.contains(name)) order.push_back(name);
-    schemas[name].push_back(schema);
+// A section with a row for every key, then those of the tables in it.
+void add_sections(const std::string& title, const std::string& meaning, const std::string& path,
+                  const std::vector<KeyTree>& keys, std::string& text) {
+  const auto is_table = [](const KeyTree& key) {
+    return key.kind == Kind::table || key.kind == Kind::tables;
   };
-  std::vector<std::string> kinds;
-  std::vector<std::string> conditions;
-  for (const KeyTree& one : key.keys) add(one.name, value(one));
-  for (const KeyTree::Alternative& alternative : key.alternatives) {
-    kinds.push_back(json_text(alternative.word.word));
-    std::vector<std::string> names{json_text("kind")};
-    for (const KeyTree& one : alternative.keys) {
-      add(one.name, value(one));
-      names.push_back(json_text(one.name));
+  text += "\n## " + title + "\n";
+  if (!meaning.empty()) text += "\n" + meaning + "\n";
+  if (!std::all_of(keys.begin(), keys.end(), is_table))
+    text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+  for (const KeyTree& key : keys)
+    if (!is_table(key))
+      text += "| `" + key.name + "` | " + values_of(key) + " | " +
+              (key.fallback.empty() ? "" : "`" + key.fallback + "`") + " | " + key.meaning + " |\n";
+  for (const KeyTree& key : keys) {
+    if (!is_table(key)) continue;
+    const std::string name = path.empty() ? key.name : path + "." + key.name;
+    add_sections(key.kind == Kind::table ? "`[" + name + "]`" : "`[[" + name + "]]`", key.meaning,
+                 name, key.keys, text);
+    for (std::size_t i = 0; i < key.alternatives.size(); ++i) {
+      const Word& word = key.alternatives[i].word;
+      const bool is_default = as_index(key.chosen) == i && key.alternatives.size() > 1;
+      add_sections(
+          "`" + name + "`, `kind = \"" + word.word + "\"`" + (is_default ? " (default)" : ""),
+          word.meaning, name, key.alternatives[i].keys, text);
     }
-    const std::string is_it = json_object({{"kind", one_word(alternative.word.word)}});
-    conditions.push_back(json_object(
-        {{"if",
-          json_object({{"properties", is_it}, {"required", json_array({json_text("kind")})}})},
-         {"then", json_object({{"propertyNames", json_object({{"enum", json_array(names)}})}})}}));
   }
-  JsonMembers properties;
-  if (!kinds.empty()) properties.emplace_back("kind", json_object({{"enum", json_array(kinds)}}));
-  for (const std::string& name : order) properties.emplace_back(name, any_of(schemas[name]));
-  properties.insert(properties.end(), further.begin(), further.end());
-  members.emplace_back("type", json_text("object"));
-  members.emplace_back("properties", json_object(properties));
-  members.emplace_back("additionalProperties", "false");
-  if (!conditions.empty()) members.emplace_back("allOf", json_array(conditions));
-  return json_object(members);
 }
 
 }  // namespace
 
-std::string json_object(const JsonMembers& members) {
-  std::vector<std::string> items;
-  for (const auto& [name, json] : members) items.push_back(json_text(name) + ": " + json);
-  return "{" + joined(items, ", ") + "}";
-}
-
-std::string json_array(const std::vector<std::string>& items) {
-  return "[" + joined(items, ", ") + "]";
-}
-
-std::string json_schema(const KeyTree& tree, const std::string& title, const JsonMembers& further) {
-  return table(tree,
-               {{"$schema", json_text("http://json-schema.org/draft-07/schema#")},
-                {"title", json_text(title)}},
-               further) +
-         "\n";
+std::string manual_of(const KeyTree& tree) {
+  std::string text;
+  add_sections("Top level", "", "", tree.keys, text);
+  return text;
 }
 
 }  // namespace palpate

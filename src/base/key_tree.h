@@ -1,9 +1,9 @@
-// The keys of a struct as a tree of plain values: the source of the JSON Schema and of completion.
+// The keys of a struct as a tree of plain values: the source of the manual, of the JSON Schema and
+// of completion.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/fields.h"
@@ -15,7 +15,8 @@ struct KeyTree {
   struct Alternative;
 
   std::string name = {};
-  std::string meaning = {};  // with the condition of its use
+  std::string meaning = {};   // with the condition of its use
+  std::string fallback = {};  // its default as text
   Kind kind = Kind::table;
   Kind item = Kind::number;               // of a list's entries
   Range range = {};                       // of numbers and quantities, SI
@@ -25,6 +26,7 @@ struct KeyTree {
   std::vector<Word> words = {};           // of a word
   std::vector<KeyTree> keys = {};         // of a table without alternatives
   std::vector<Alternative> alternatives;  // without `= {}`: its type is complete below
+  int chosen = 0;                         // the alternative that is the default
 };
 
 // One kind of a table with a key `kind`.
@@ -46,15 +48,7 @@ struct FlatKey {
 // Every key that has a value, once; of a list of tables the first table's.
 [[nodiscard]] std::vector<FlatKey> flat_keys(const KeyTree& tree);
 
-// A JSON Schema (draft 7) of a document with these keys. `further` are members of its `properties`
-// besides: names, and schemas as JSON. Keys that are required, and values that depend on each
-// other, are left to the program.
-using JsonMembers = std::vector<std::pair<std::string, std::string>>;
-[[nodiscard]] std::string json_schema(const KeyTree& tree, const std::string& title,
-                                      const JsonMembers& further);
-
-// `{"a": 1}` from names and values in JSON.
-[[nodiscard]] std::string json_object(const JsonMembers& members);
-[[nodiscard]] std::string json_array(const std::vector<std::string>& items);
+// A reference of every key in Markdown: type, range, default, meaning and when it is used.
+[[nodiscard]] std::string manual_of(const KeyTree& tree);
 
 }  // namespace palpate

@@ -54,8 +54,9 @@ struct LeadingNumber {
 // An estimated relative error: "about 1.5 %", or "more than 100 %", where its size tells nothing.
 [[nodiscard]] std::string error_text(double error);
 
-// With the letters A to Z in lower case.
 [[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }  // ASCII
+
+// With the letters A to Z in lower case.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
 // With a capital first letter, but for a name such as `tissue.young_modulus`, `mass_spring` or the
@@ -63,6 +64,12 @@ struct LeadingNumber {
 [[nodiscard]] std::string capitalized(std::string text);
 // A label as part of a sentence: with a small first letter if the first word is one.
 [[nodiscard]] std::string within_sentence(std::string label);
+
+// A word of a command, in quotes, so that a shell takes it as one; `shown_word` has quotes only
+// where a shell needs them.
+[[nodiscard]] std::string shell_word(const std::string& text);
+[[nodiscard]] std::string shown_word(const std::string& text);
+
 [[nodiscard]] std::string trimmed(std::string_view text);
 [[nodiscard]] std::string joined(std::span<const std::string> words, std::string_view separator);
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);

@@ -8,18 +8,14 @@
 #include <stdexcept>
 #include <vector>
 
-#include "base/plausible_unit.h"
 #include "base/text.h"
-#include "base/unit_factor.h"
 
 namespace palpate {
 namespace {
 
-using Scale = UnitFactor;
-
 struct Symbol {
   std::string_view name;
-  Scale scale;
+  UnitFactor scale;
   bool prefixed;
 };
 
@@ -44,20 +40,20 @@ constexpr std::array prefixes{Prefix{"T", 1e12, 1},     Prefix{"p", 1, 1e12}, Pr
                               Prefix{"\u00b5", 1, 1e6},   // the micro sign
                               Prefix{"\u03bc", 1, 1e6}};  // the Greek letter mu
 
-std::optional<Scale> symbol_scale(std::string_view text) {
+std::optional<UnitFactor> symbol_scale(std::string_view text) {
   for (const Symbol& symbol : symbols)
     if (text == symbol.name) return symbol.scale;
   for (const Prefix& prefix : prefixes) {
     if (!text.starts_with(prefix.name)) continue;
     for (const Symbol& symbol : symbols)
       if (symbol.prefixed && text.substr(prefix.name.size()) == symbol.name)
-        return Scale{symbol.scale.times * prefix.times, symbol.scale.per * prefix.per,
-                     symbol.scale.dimension};
+        return UnitFactor{symbol.scale.times * prefix.times, symbol.scale.per * prefix.per,
+                          symbol.scale.dimension};
   }
   return std::nullopt;
 }
 
-void multiply(Scale& product, const Scale& factor, int power) {
+void multiply(UnitFactor& product, const UnitFactor& factor, int power) {
   for (int i = 0; i < std::abs(power); ++i) {
     product.times *= power > 0 ? factor.times : factor.per;
     product.per *= power > 0 ? factor.per : factor.times;
@@ -69,7 +65,7 @@ void multiply(Scale& product, const Scale& factor, int power) {
 
 // Combines `times` and `per` into one number if that is exact. Without this, `kg` (1000 g, a gram
 // being a thousandth of the SI unit) would be multiplied and divided by 1000 and rounded twice.
-Scale reduced(Scale scale) {
+UnitFactor reduced(UnitFactor scale) {
   const auto divides = [](double part, double whole) {
     return whole < 9007199254740992.0 && std::fmod(whole, part) == 0.0;
   };
@@ -79,27 +75,27 @@ Scale reduced(Scale scale) {
 }
 
 // The same with units that palpate does not take: `inches`, `lbf`, `cm2`.
-std::optional<Scale> foreign_scale(std::string_view text) {
+std::optional<UnitFactor> foreign_scale(std::string_view text) {
   if (const auto known = symbol_scale(text)) return known;
   if (const UnitWord* word = unit_word(text)) return word->factor;
   if (text.size() < 2 || (text.back() != '2' && text.back() != '3')) return std::nullopt;
   const auto one = foreign_scale(text.substr(0, text.size() - 1));
   if (!one) return std::nullopt;
-  Scale power;
+  UnitFactor power;
   multiply(power, *one, text.back() - '0');
   return power;
 }
 
 // The same with pounds of mass: `lb/ft3`.
-std::optional<Scale> mass_scale(std::string_view text) {
-  if (text == "lb" || text == "lbs" || text == "lbm") return Scale{0.45359237, 1, {.kg = 1}};
+std::optional<UnitFactor> mass_scale(std::string_view text) {
+  if (text == "lb" || text == "lbs" || text == "lbm") return UnitFactor{0.45359237, 1, {.kg = 1}};
   return foreign_scale(text);
 }
 
 // Parses a unit expression; empty if it is not one.
-std::optional<Scale> parse_unit(std::string_view text,
-                                std::optional<Scale> (*scale_of)(std::string_view) = symbol_scale) {
-  Scale scale;
+std::optional<UnitFactor> parse_unit(
+    std::string_view text, std::optional<UnitFactor> (*scale_of)(std::string_view) = symbol_scale) {
+  UnitFactor scale;
   int sign = 1;
   bool wants_factor = true;
   std::size_t at = 0;
@@ -158,17 +154,13 @@ const std::vector<UnitWord>& unit_words() {
   static const std::vector<UnitWord> table{
       {"mph", "mph", {0.44704, 1, unit::mm_per_s.dimension}},
       {"sec", "s", {1, 1, time}},
-      {"secs", "s", {1, 1, time}},
       {"second", "s", {1, 1, time}},
-      {"seconds", "s", {1, 1, time}},
       {"msec", "ms", {1, 1e3, time}},
-      {"milliseconds", "ms", {1, 1e3, time}},
+      {"millisecond", "ms", {1, 1e3, time}},
       {"mins", "min", {60, 1, time}},
       {"minute", "min", {60, 1, time}},
-      {"minutes", "min", {60, 1, time}},
-      {"hours", "h", {3600, 1, time}},
+      {"hour", "h", {3600, 1, time}},
       {"newton", "N", {1, 1, force}},
-      {"newtons", "N", {1, 1, force}},
       {"gf", "gf", {9.80665, 1e3, force}},
       {"kp", "kgf", {9.80665, 1, force}},
       {"dyn", "dyn", {1, 1e5, force}},
@@ -183,31 +175,23 @@ const std::vector<UnitWord>& unit_words() {
       {"inch", "in", {25.4, 1e3, length}},
       {"inches", "in", {25.4, 1e3, length}},
       {"micron", "um", {1, 1e6, length}},
-      {"microns", "um", {1, 1e6, length}},
       {"millimeter", "mm", {1, 1e3, length}},
       {"millimetre", "mm", {1, 1e3, length}},
-      {"millimeters", "mm", {1, 1e3, length}},
-      {"millimetres", "mm", {1, 1e3, length}},
       {"micrometer", "um", {1, 1e6, length}},
-      {"micrometers", "um", {1, 1e6, length}},
       {"nanometer", "nm", {1, 1e9, length}},
-      {"nanometers", "nm", {1, 1e9, length}},
       {"meter", "m", {1, 1, length}},
-      {"meters", "m", {1, 1, length}},
       {"angstrom", "Angstrom", {1, 1e10, length}},
-      {"angstroms", "Angstrom", {1, 1e10, length}},
       {"ang", "Angstrom", {1, 1e10, length}},
       {"\u00c5", "Angstrom", {1, 1e10, length}},
       {"\u00e5", "Angstrom", {1, 1e10, length}},
       {"ft", "ft", {304.8, 1e3, length}},
       {"lb", "lbf", {4.4482216152605, 1, force}},
       {"lbs", "lbf", {4.4482216152605, 1, force}},
-      {"millinewtons", "mN", {1, 1e3, force}},
-      {"kilonewtons", "kN", {1e3, 1, force}},
+      {"millinewton", "mN", {1, 1e3, force}},
+      {"kilonewton", "kN", {1e3, 1, force}},
       {"pascal", "Pa", {1, 1, stress}},
-      {"pascals", "Pa", {1, 1, stress}},
-      {"kilopascals", "kPa", {1e3, 1, stress}},
-      {"megapascals", "MPa", {1e6, 1, stress}},
+      {"kilopascal", "kPa", {1e3, 1, stress}},
+      {"megapascal", "MPa", {1e6, 1, stress}},
       {"psi", "psi", {6894.757293168361, 1, stress}},
       {"ksi", "ksi", {6894757.293168361, 1, stress}},
       {"mmhg", "mmHg", {133.322387415, 1, stress}},
@@ -230,7 +214,36 @@ const std::vector<const Unit*>& named_units() {
   return units;
 }
 
-std::string si_symbol(const Dimension& dimension) {
+[[noreturn]] void refuse(const Unit& wanted, const std::string& what) {
+  throw std::invalid_argument("wants " + article(wanted.quantity) + what);
+}
+
+}  // namespace
+
+std::optional<UnitFactor> unit_factor(std::string_view text) { return parse_unit(text); }
+
+const UnitWord* unit_word(std::string_view text) {
+  const std::string small = lower_case(text);
+  for (const UnitWord& one : unit_words())
+    if (small == one.word || (small.size() > 3 && small == std::string(one.word) + "s"))
+      return &one;
+  return nullptr;
+}
+
+double metres_per(const std::string& unit) {
+  const UnitWord* word = unit_word(unit);
+  return word != nullptr && word->factor.dimension == unit::mm.dimension
+             ? word->factor.to_si(1.0)
+             : parse_quantity("1 " + unit, unit::mm);
+}
+
+std::string_view plausible_unit(double number, std::string_view unit) {
+  if (unit == "kPa" && std::abs(number) >= 1000.0) return "Pa";
+  if (unit == "mm" && number != 0.0 && std::abs(number) < 0.1) return "m";
+  return unit;
+}
+
+std::string si_unit(const Dimension& dimension) {
   if (dimension == unit::kPa.dimension) return "Pa";
   if (dimension == unit::N.dimension) return "N";
   std::string text;
@@ -245,30 +258,6 @@ std::string si_symbol(const Dimension& dimension) {
   add("s", dimension.s);
   return text;
 }
-
-[[noreturn]] void refuse(const Unit& wanted, const std::string& what) {
-  throw std::invalid_argument("wants " + article(wanted.quantity) + what);
-}
-
-}  // namespace
-
-std::optional<UnitFactor> unit_factor(std::string_view text) { return parse_unit(text); }
-
-const UnitWord* unit_word(std::string_view text) {
-  const std::string small = lower_case(text);
-  for (const UnitWord& one : unit_words())
-    if (small == one.word) return &one;
-  return nullptr;
-}
-
-double metres_per(const std::string& unit) {
-  const UnitWord* word = unit_word(unit);
-  return word != nullptr && word->factor.dimension == unit::mm.dimension
-             ? word->factor.to_si(1.0)
-             : parse_quantity("1 " + unit, unit::mm);
-}
-
-std::string si_unit(const Dimension& dimension) { return si_symbol(dimension); }
 
 std::string unit_pattern(const Dimension& dimension) {
   std::string any_prefix;
@@ -295,7 +284,7 @@ std::string pressure_text(double pascal) {
 std::string dimension_name(const Dimension& dimension) {
   for (const Unit* unit : named_units())
     if (unit->dimension == dimension) return article(unit->quantity);
-  return dimension == Dimension{} ? "a pure number" : "a quantity in " + si_symbol(dimension);
+  return dimension == Dimension{} ? "a pure number" : "a quantity in " + si_unit(dimension);
 }
 
 bool is_quantity(std::string_view text, const Dimension& dimension) {
@@ -352,7 +341,7 @@ std::string quantity_text(double si, const Unit& shown) {
   for (const double candidate :
        {value, std::nextafter(value, -INFINITY), std::nextafter(value, INFINITY)})
     if (shown.to_si(candidate) == si) return number_text(candidate) + " " + shown.symbol;
-  return number_text(si) + " " + si_symbol(shown.dimension);
+  return number_text(si) + " " + si_unit(shown.dimension);
 }
 
 }  // namespace palpate

@@ -6,7 +6,7 @@
 #include "device/link.h"
 #include "fit/regression.h"
 #include "report/export.h"
-#include "scenario/starters.h"
+#include "scenario/schema.h"
 
 namespace palpate::cli {
 namespace {

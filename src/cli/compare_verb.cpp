@@ -14,7 +14,7 @@
 #include "page/page.h"
 #include "plot/gnuplot.h"
 #include "record/csv.h"
-#include "sweep/labels.h"
+#include "sweep/columns.h"
 
 namespace palpate::cli {
 namespace {

@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
-#include "base/unit_factor.h"
 #include "base/units.h"
 #include "base/whole_folder.h"
 #include "cli/program.h"

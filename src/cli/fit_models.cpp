@@ -163,7 +163,7 @@ fit::ContactTest contact_test(const Fit& command) {
 
 namespace {
 
-constexpr Unit mm2{"mm^2", "area", 1, 1e6, {2, 0, 0}};
+constexpr Unit mm2{"mm^2", "area", {1, 1e6, {2, 0, 0}}};
 
 double area_of(const Fit& command) {
   if (!command.area.empty() && !command.diameter.empty())

@@ -11,7 +11,6 @@
 #include "report/manifest.h"
 #include "scenario/family.h"
 #include "scenario/schema.h"
-#include "scenario/starters.h"
 
 namespace palpate::cli {
 namespace {

@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/shell_word.h"
 #include "base/text.h"
 #include "plot/gnuplot.h"
 

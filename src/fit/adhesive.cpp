@@ -22,7 +22,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double low_tabor = 0.1;   // DMT below, JKR above the other: Johnson and Greenwood 1997,
 constexpr double high_tabor = 5.0;  // J. Colloid Interface Sci. 192, their map
-const Unit mJ_per_m2{"mJ/m^2", "work of adhesion", 1, 1e3, {0, 1, -2}};
+const Unit mJ_per_m2{"mJ/m^2", "work of adhesion", {1, 1e3, {0, 1, -2}}};
 
 // x = a / a_c >= 1 of JKR: x^2 - 4 sqrt(x) = d, h = d a_c^2 / R, a_c^3 = pi w R^2 / (8 E*). The
 // left side is convex, and Newton's steps from the right of the root do not pass it.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/shell_word.h"
 #include "base/text.h"
 #include "identify/tables.h"
 #include "page/page.h"

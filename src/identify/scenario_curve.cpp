@@ -22,7 +22,7 @@
 namespace palpate::identify {
 namespace {
 
-constexpr Unit strain{"", "strain", 1, 1, {0, 0, 0}};
+constexpr Unit strain{"", "strain", {}};
 
 template <class Kind>
 int first(const scenario::PlainScenario& scenario) {

@@ -46,6 +46,12 @@ struct State {
   double stored = 0.0;        // J
 };
 
+// Sets the entries of held degrees of freedom to 0.
+inline void clear_held(std::span<const char> held, Vector& vector) {
+  for (std::size_t d = 0; d < held.size(); ++d)
+    if (held[d] != 0) vector[static_cast<Eigen::Index>(d)] = 0.0;
+}
+
 // All vectors have one entry per degree of freedom. Held degrees of freedom do not move.
 class Body {
  public:

@@ -14,11 +14,6 @@ namespace {
 // Relative error of solutions with dashpots, in the energy norm: far below that of a step.
 constexpr double tolerance = 1e-10;
 
-void clear_held(std::span<const char> held, Vector& vector) {
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] != 0) vector[static_cast<Eigen::Index>(d)] = 0.0;
-}
-
 }  // namespace
 
 double explicit_limit(DampingVelocity velocity, const FastestMode& mode) {

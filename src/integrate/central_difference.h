@@ -12,7 +12,12 @@ namespace palpate::integrate {
 enum class Start { consistent, paper };
 
 // The velocity with which drag and dashpots act in a step: the mean of this step's and the previous
-// step's (eq. 12), the previous step's, or this step's. The last two: order 1 [semi_implicit].
+// step's (eq. 12), the previous step's, or this step's. The last two are of order 1. `ahead` is
+// semi-implicit Euler,
+//   (M + D dt) v1 = M v0 + dt (F - f(u0)),  u1 = u0 + dt v1,
+// without damping a central difference whose velocities are assigned to a time half a step too
+// late.
+//                                                               docs/theory.md [semi_implicit]
 enum class DampingVelocity { centred, lagged, ahead };
 
 // The fastest mode of a body.
@@ -66,23 +71,6 @@ class CentralDifference {
   GradientVectors vectors_;
   Vector right_;
   Vector image_;  // product of a vector with D
-};
-
-//   (M + D dt) v1 = M v0 + dt (F - f(u0)),  u1 = u0 + dt v1
-// with the forces at the start of the step. It is of first order: without damping it is a central
-// difference whose velocities are assigned to a time half a step too late. It is stable for
-// dt omega < 2 (sqrt(1 + zeta^2) + zeta), because the damping is in the matrix on the left, which
-// is inverted as that of CentralDifference.  docs/theory.md [semi_implicit], [explicit_limit]
-class SemiImplicitEuler {
- public:
-  SemiImplicitEuler(const Body& body, double time_step)
-      : method_(body, time_step, Start::consistent, DampingVelocity::ahead) {}
-
-  // Advances the state from t to t + dt under the load (N) at t.
-  void step(State& state, const Vector& load) { method_.step(state, load); }
-
- private:
-  CentralDifference method_;
 };
 
 }  // namespace palpate::integrate

@@ -39,9 +39,7 @@ Vector Implicit::response(const Vector& load) const {
 
 void Implicit::response(const Vector& load, Vector& moved) const {
   moved = load;
-  const auto held = body_->held();
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] != 0) moved[static_cast<Eigen::Index>(d)] = 0.0;
+  clear_held(body_->held(), moved);
   factors_.solve(moved, moved);
 }
 
@@ -66,9 +64,7 @@ void TrBdf2::extrapolate(const State& state, double time) {
     acceleration -= force_;
   }
   acceleration = acceleration.cwiseQuotient(body_->mass());
-  const auto held = body_->held();
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] != 0) acceleration[static_cast<Eigen::Index>(d)] = 0.0;
+  clear_held(body_->held(), acceleration);
   past_.displacement += time * state.velocity;
   past_.velocity += time * acceleration;
   if (!body_->has_dashpots()) {

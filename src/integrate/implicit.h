@@ -74,7 +74,6 @@ class TrBdf2 {
     return euler_.linearise(displacement, load);
   }
   [[nodiscard]] const Vector& base() const { return euler_.base(); }
-  [[nodiscard]] Vector response(const Vector& load) const { return euler_.response(load); }
   void response(const Vector& load, Vector& moved) const { euler_.response(load, moved); }
 
   // Ends the stage at `displacement` under `load` (N).

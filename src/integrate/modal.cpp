@@ -316,12 +316,6 @@ bool Modal::linearise(const Vector&, const Vector& load) {
   return true;
 }
 
-Vector Modal::response(const Vector& load) const {
-  Vector all;
-  response(load, all);
-  return all;
-}
-
 void Modal::response(const Vector& load, Vector& moved) const {
   modal_force(load, force_);
   amplitudes_ = force_.cwiseProduct(propagators_.end[0]);

@@ -51,8 +51,7 @@ class Modal {
   void begin(const State& state, double time_step, MemoryRule rule);
   [[nodiscard]] bool linearise(const Vector& displacement, const Vector& load);
   [[nodiscard]] const Vector& base() const { return base_; }
-  [[nodiscard]] Vector response(const Vector& load) const;
-  void response(const Vector& load, Vector& moved) const;  // the same, into another vector
+  void response(const Vector& load, Vector& moved) const;
   void finish(State& state, const Vector& displacement, const Vector& load);
 
   // Steps in the modes alone, for bodies whose damping has no branches: press() adds the load (N)

@@ -5,7 +5,7 @@
 #include "contact/passivity.h"
 #include "device/safety.h"
 #include "live/loop.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 
 namespace palpate::live {
 namespace {

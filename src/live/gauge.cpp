@@ -10,7 +10,7 @@
 #include "device/safety.h"
 #include "live/loop.h"
 #include "live/touch.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 #include "scenario/programme.h"
 
 namespace palpate::live {

@@ -9,7 +9,7 @@
 #include "device/safety.h"
 #include "live/loop.h"
 #include "live/touch.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 
 namespace palpate::live {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/unit_factor.h"
+#include "base/units.h"
 
 namespace palpate::measured {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/unit_factor.h"
+#include "base/units.h"
 
 namespace palpate::measured {
 

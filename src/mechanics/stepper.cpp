@@ -21,9 +21,9 @@ Stepper::Method make_method(const scene::Scene& scene, const scene::SpringBody& 
   const scenario::Resolved::Solver& solver = scene.scenario.solver;
   switch (solver.integrator) {
     case Integrator::central_difference:
+    case Integrator::semi_implicit_euler:
       return integrate::CentralDifference(body, time_step, solver.start,
                                           scenario::damping_velocity(solver));
-    case Integrator::semi_implicit_euler: return integrate::SemiImplicitEuler(body, time_step);
     case Integrator::backward_difference:
       return integrate::Implicit(body, Inertia::backward_difference);
     case Integrator::tr_bdf2: return integrate::TrBdf2(body);

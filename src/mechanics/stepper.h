@@ -22,8 +22,8 @@ inline constexpr const char* not_settled =
 
 class Stepper {
  public:
-  using Method = std::variant<integrate::CentralDifference, integrate::SemiImplicitEuler,
-                              integrate::Implicit, integrate::TrBdf2, integrate::Modal>;
+  using Method = std::variant<integrate::CentralDifference, integrate::Implicit, integrate::TrBdf2,
+                              integrate::Modal>;
 
   // Modal steps keep all modes unless `statics` is given, which must outlive this and then solves
   // with the body's stiffness at rest. Both take a solver that is not prepared yet.

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "base/unit_factor.h"
+#include "base/units.h"
 #include "geometry/half_edges.h"
 
 namespace palpate::meshing {

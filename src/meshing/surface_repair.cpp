@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "base/vector_text.h"
+#include "base/vec3.h"
 #include "geometry/box_tree.h"
 #include "geometry/half_edges.h"
 #include "meshing/cgal_library.h"

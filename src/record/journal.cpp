@@ -19,8 +19,6 @@ constexpr const char* ending = ".rows";
 constexpr std::size_t digits = 16;  // of a seal
 // The number is raised with every change of the format, and with it all seals change.
 const std::string greeting = "palpate rows 2\t";
-// The beginning of files of sweeps written by earlier versions.
-constexpr std::string_view earlier_greeting = "palpate sweep rows 1\t";
 
 std::string header_of(std::string_view identity) { return greeting + std::string(identity) + "\n"; }
 
@@ -104,7 +102,6 @@ JournalFile read_journal(const std::string& path, std::string_view identity, con
       file.whose = header.starts_with(line.text) ? Whose::ours : Whose::another;
       return;
     }
-    if (first && line.text.starts_with(earlier_greeting)) file.whose = Whose::earlier;
     const auto row = line.whole ? read_line(line.text, identity) : std::nullopt;
     if (row && see(*row, line)) {
       ++file.rows;

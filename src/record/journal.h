@@ -34,7 +34,6 @@ struct JournalFile {
   enum class Whose {
     ours,
     another,  // the first line has another identity, and no row has a matching seal
-    earlier,  // written by an earlier version of this program
     unknown   // the first line is not a header of this format, and no row has a matching seal
   };
   std::string path;

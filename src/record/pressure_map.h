@@ -26,6 +26,10 @@ struct PressureMap {
 };
 
 // The integral of the pressure over the map, N.
-[[nodiscard]] double integral(const PressureMap& map);
+[[nodiscard]] inline double integral(const PressureMap& map) {
+  double sum = 0.0;
+  for (const float pressure : map.pressure) sum += static_cast<double>(pressure);
+  return sum * map.pitch * map.pitch;
+}
 
 }  // namespace palpate::record

@@ -10,8 +10,6 @@
 namespace palpate::record {
 namespace {
 
-Cell known(double value) { return std::isfinite(value) ? Cell(value) : Cell(); }
-
 void add_measured(const MeasuredRow& row, std::vector<Cell>& cells) {
   const auto& [x, y, z] = row.sent;
   cells.insert(cells.end(), {unit::mm.from_si(row.place[0]), unit::mm.from_si(row.place[1]),
@@ -119,11 +117,9 @@ Table measured_force_table(const std::vector<CaseRecord>& records) {
   Table table;
   table.columns = {"case", "step", "time_s", "force_N"};
   for (const CaseRecord& record : records)
-    for (std::size_t i = 0; i < record.contact.size(); ++i) {
-      const double force = record.measured[i].force;
+    for (std::size_t i = 0; i < record.contact.size(); ++i)
       table.rows.push_back({record.name, static_cast<double>(record.contact[i].step),
-                            record.contact[i].time, std::isfinite(force) ? Cell(force) : Cell()});
-    }
+                            record.contact[i].time, known(record.measured[i].force)});
   return table;
 }
 

@@ -1,6 +1,7 @@
 // A table of results with named columns and rows of numbers and words.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,11 @@ namespace palpate::record {
 
 // Missing (an empty field), a number, or a word.
 using Cell = std::variant<std::monostate, double, std::string>;
+
+// A number; missing where it is not finite.
+[[nodiscard]] inline Cell known(double value) {
+  return std::isfinite(value) ? Cell(value) : Cell();
+}
 
 struct Table {
   std::vector<std::string> columns;  // a name ends with its unit: `force_N`

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/shell_word.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "fit/case_fits.h"
@@ -24,7 +23,6 @@
 #include "scenario/family.h"
 #include "scenario/model_traits.h"
 #include "scenario/resolved.h"
-#include "scenario/viscosity_text.h"
 
 namespace palpate::report {
 namespace {

@@ -29,9 +29,14 @@ const char* plain_word(Model model) {
   return "";
 }
 
+std::string would_change(double change) {
+  return std::string("which would ") + (change < 0.0 ? "take " : "add ") +
+         percent_text(std::abs(change)) + (change < 0.0 ? " off" : " to") + " the force";
+}
+
 class Words {
  public:
-  Words(const scene::Scene& scene, std::optional<double> mesh_error)
+  explicit Words(const scene::Scene& scene, std::optional<double> mesh_error = std::nullopt)
       : scene_(scene),
         mesh_error_(mesh_error),
         traits_(scenario::traits(scene.scenario.solver.model)),
@@ -59,9 +64,8 @@ class Words {
              record::Answer& answer) const {
     answer.stated_error = error;
     if (!error) return;
-    const double tolerance = scene_.scenario.solver.tolerance;
-    answer.tolerance = "tolerance " + percent_text(tolerance);
-    if (!scene_.choice.given && *error > tolerance)
+    answer.tolerance = "tolerance " + percent_text(tolerance());
+    if (!scene_.choice.given && *error > tolerance())
       answer.tolerance += follows_hertz()
                               ? ", and with `contact.coupling = \"one_way\"` no model comes nearer"
                               : ", and no model comes nearer";
@@ -81,10 +85,35 @@ class Words {
     return text;
   }
 
+  // What the model leaves out, the largest first.
+  std::vector<Neglected> all_neglected() {
+    if (!scene_.scenario.uniform()) {
+      size();
+      edge();
+      ball();
+      double_counting();
+      large_strains();
+      viscosity();
+      waves();
+    }
+    std::stable_sort(all_.begin(), all_.end(), [](const Neglected& a, const Neglected& b) {
+      return std::abs(a.change) > std::abs(b.change);
+    });
+    return std::move(all_);
+  }
+
  private:
-  [[nodiscard]] bool follows_hertz() const {
-    return !scene_.scenario.uniform() &&
-           scene_.scenario.contact.coupling == contact::Coupling::one_way;
+  [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
+  [[nodiscard]] bool one_way() const {
+    return scene_.scenario.contact.coupling == contact::Coupling::one_way;
+  }
+  [[nodiscard]] bool mesh_is_tissue() const {
+    return contact::mesh_is_tissue(scene_.scenario.contact.coupling);
+  }
+  [[nodiscard]] bool follows_hertz() const { return !scene_.scenario.uniform() && one_way(); }
+  void omit(const std::string& what, double change, const std::string& when,
+            const std::string& remedy = "", const std::string& beside = "") {
+    all_.push_back({what, change, when, remedy, beside});
   }
 
   // Why this model, or what another would do.
@@ -173,10 +202,101 @@ class Words {
            percent_text(std::abs(change)) + ".";
   }
 
+  void size() {
+    const std::string free = one_way()             ? "remove `contact.coupling`"
+                             : scene_.choice.given ? "remove `solver.model`"
+                                                   : "";
+    if ((traits_.of == Model::hertz || one_way()) && std::abs(e_.size) > tolerance())
+      omit("the size of the body", e_.size, would_change(e_.size), free);
+    else if (traits_.of == Model::layer && std::abs(e_.sides) > tolerance())
+      omit("the sides of the body", e_.sides, would_change(e_.sides), free);
+  }
+
+  void edge() {
+    if (traits_.solid || mesh_is_tissue() || e_.edge <= 0.2 * tolerance()) return;
+    omit("an edge of the body near the contact", e_.edge,
+         "which may change the force by up to " + percent_text(e_.edge),
+         waves_matter() ? "press farther from it"
+                        : "set `solver.model = \"solid\"`, or press farther from it");
+  }
+
+  void ball() {
+    if (traits_.solid || e_.ball <= 0.2 * tolerance()) return;
+    omit("the size of the finger, a ball that is stiffer than Hertz's law has it", e_.ball,
+         would_change(e_.ball), waves_matter() ? "" : "set `solver.model = \"solid\"`");
+  }
+
+  // By how much a half-space under `series` is too soft.                 docs/theory.md [depth]
+  void double_counting() {
+    if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
+    const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;
+    omit("counting the softness of the tissue once only", change, would_change(change),
+         "remove `contact.coupling`", "the softness that counts twice");
+  }
+
+  void large_strains() {
+    const double most = std::abs(e_.deep) + (e_.depth_ratio ? 0.0 : e_.deep_error);
+    if (traits_.solid || scene_.depth_ratio || most < 0.2 * tolerance()) return;
+    if (!e_.depth_ratio)
+      return omit(
+          "large strains", most,
+          "which may change the force by up to " + percent_text(most) + " where it is deepest",
+          waves_matter()     ? "press less deep"
+          : mesh_is_tissue() ? "set `solver.model = \"solid\"` and remove `contact.coupling`"
+                             : "set `solver.model = \"solid\"`");
+    std::string remedy = "add `contact.depth = \"neo_hookean\"`";
+    if (mesh_is_tissue())
+      remedy = (waves_matter() ? remedy : "set `solver.model = \"solid\"`") +
+               " and remove `contact.coupling`";
+    omit("large strains", e_.deep, would_change(e_.deep) + " where it is deepest", remedy);
+  }
+
+  void viscosity() {
+    if (!neglects_viscosity()) return;
+    std::string remedy = "add `contact.viscosity = \"tissue\"`";
+    if (one_way()) remedy += " and remove `contact.coupling`";
+    omit("viscosity", e_.viscous, would_change(e_.viscous) + " while pressing", remedy,
+         "viscosity");
+  }
+
+  void waves() {
+    if (!waves_matter()) return;
+    const std::string when = would_change(e_.inertia) + " at this speed";
+    if (!traits_.inertia) return omit("inertia of the tissue", e_.inertia, when, mesh_with_waves());
+    if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
+    omit("inertia of the tissue", e_.inertia, when,
+         "take an integrator with inertia and " + viscosity_with_waves() +
+             ", or `contact.coupling = \"resolved\"`");
+  }
+
+  // `solid` is no remedy then, because it has no inertia.
+  [[nodiscard]] bool waves_matter() const { return e_.inertia > tolerance(); }
+
+  // Waves reach the force of a mesh where its springs do not damp them.
+  [[nodiscard]] std::string mesh_with_waves() const {
+    std::string mesh = "set `solver.model = \"coupled_springs\"`";
+    if (scene_.scenario.tissue.viscosity != tissue::Viscosity::none)
+      mesh += " and " + viscosity_with_waves();
+    return mesh;
+  }
+
+  // The viscosity with which waves reach the force: none, or a solid that relaxes in the contact
+  // too where the force has viscosity or would have it by the remedy beside this one.
+  [[nodiscard]] std::string viscosity_with_waves() const {
+    return neglects_viscosity() || !scene_.relaxation.elastic()
+               ? "`tissue.viscosity = \"standard_linear_solid\"`"
+               : "`tissue.viscosity = \"none\"`";
+  }
+
+  [[nodiscard]] bool neglects_viscosity() const {
+    return scene_.relaxation.elastic() && !mesh_is_tissue() && e_.viscous > 0.2 * tolerance();
+  }
+
   const scene::Scene& scene_;
   std::optional<double> mesh_error_;
   const scenario::ModelTraits& traits_;
   const scene::Estimates& e_;
+  std::vector<Neglected> all_;
 };
 
 // What the error of a case is of, as the start of a sentence.
@@ -235,147 +355,7 @@ record::Answer answer(const scene::Scene& scene, const record::CaseRecord& recor
   return answer;
 }
 
-namespace {
-
-std::string would(double change) {
-  return std::string("which would ") + (change < 0.0 ? "take " : "add ") +
-         percent_text(std::abs(change)) + (change < 0.0 ? " off" : " to") + " the force";
-}
-
-class AllNeglected {
- public:
-  explicit AllNeglected(const scene::Scene& scene)
-      : scene_(scene),
-        traits_(scenario::traits(scene.scenario.solver.model)),
-        e_(scene.choice.expected) {}
-
-  std::vector<Neglected> all() {
-    if (!scene_.scenario.uniform()) {
-      size();
-      edge();
-      ball();
-      double_counting();
-      large_strains();
-      viscosity();
-      waves();
-    }
-    std::stable_sort(all_.begin(), all_.end(), [](const Neglected& a, const Neglected& b) {
-      return std::abs(a.change) > std::abs(b.change);
-    });
-    return std::move(all_);
-  }
-
- private:
-  [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
-  [[nodiscard]] bool one_way() const {
-    return scene_.scenario.contact.coupling == contact::Coupling::one_way;
-  }
-  [[nodiscard]] bool mesh_is_tissue() const {
-    return contact::mesh_is_tissue(scene_.scenario.contact.coupling);
-  }
-  void omit(const std::string& what, double change, const std::string& when,
-            const std::string& remedy = "", const std::string& beside = "") {
-    all_.push_back({what, change, when, remedy, beside});
-  }
-
-  void size() {
-    const std::string free = one_way()             ? "remove `contact.coupling`"
-                             : scene_.choice.given ? "remove `solver.model`"
-                                                   : "";
-    if ((traits_.of == Model::hertz || one_way()) && std::abs(e_.size) > tolerance())
-      omit("the size of the body", e_.size, would(e_.size), free);
-    else if (traits_.of == Model::layer && std::abs(e_.sides) > tolerance())
-      omit("the sides of the body", e_.sides, would(e_.sides), free);
-  }
-
-  void edge() {
-    if (traits_.solid || mesh_is_tissue() || e_.edge <= 0.2 * tolerance()) return;
-    omit("an edge of the body near the contact", e_.edge,
-         "which may change the force by up to " + percent_text(e_.edge),
-         waves_matter() ? "press farther from it"
-                        : "set `solver.model = \"solid\"`, or press farther from it");
-  }
-
-  void ball() {
-    if (traits_.solid || e_.ball <= 0.2 * tolerance()) return;
-    omit("the size of the finger, a ball that is stiffer than Hertz's law has it", e_.ball,
-         would(e_.ball), waves_matter() ? "" : "set `solver.model = \"solid\"`");
-  }
-
-  // By how much a half-space under `series` is too soft.                 docs/theory.md [depth]
-  void double_counting() {
-    if (!scene_.specimen || scene_.scenario.contact.coupling != contact::Coupling::series) return;
-    const double change = std::pow(2.0 - scene_.finger.compliance_share, 1.5) - 1.0;
-    omit("counting the softness of the tissue once only", change, would(change),
-         "remove `contact.coupling`", "the softness that counts twice");
-  }
-
-  void large_strains() {
-    const double most = std::abs(e_.deep) + (e_.depth_ratio ? 0.0 : e_.deep_error);
-    if (traits_.solid || scene_.depth_ratio || most < 0.2 * tolerance()) return;
-    if (!e_.depth_ratio)
-      return omit(
-          "large strains", most,
-          "which may change the force by up to " + percent_text(most) + " where it is deepest",
-          waves_matter()     ? "press less deep"
-          : mesh_is_tissue() ? "set `solver.model = \"solid\"` and remove `contact.coupling`"
-                             : "set `solver.model = \"solid\"`");
-    std::string remedy = "add `contact.depth = \"neo_hookean\"`";
-    if (mesh_is_tissue())
-      remedy = (waves_matter() ? remedy : "set `solver.model = \"solid\"`") +
-               " and remove `contact.coupling`";
-    omit("large strains", e_.deep, would(e_.deep) + " where it is deepest", remedy);
-  }
-
-  void viscosity() {
-    if (!neglects_viscosity()) return;
-    std::string remedy = "add `contact.viscosity = \"tissue\"`";
-    if (one_way()) remedy += " and remove `contact.coupling`";
-    omit("viscosity", e_.viscous, would(e_.viscous) + " while pressing", remedy, "viscosity");
-  }
-
-  void waves() {
-    if (!waves_matter()) return;
-    const std::string when = would(e_.inertia) + " at this speed";
-    if (!traits_.inertia) return omit("inertia of the tissue", e_.inertia, when, mesh_with_waves());
-    if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
-    omit("inertia of the tissue", e_.inertia, when,
-         "take an integrator with inertia and " + viscosity_with_waves() +
-             ", or `contact.coupling = \"resolved\"`");
-  }
-
-  // `solid` is no remedy then, because it has no inertia.
-  [[nodiscard]] bool waves_matter() const { return e_.inertia > tolerance(); }
-
-  // Waves reach the force of a mesh where its springs do not damp them.
-  [[nodiscard]] std::string mesh_with_waves() const {
-    std::string mesh = "set `solver.model = \"coupled_springs\"`";
-    if (scene_.scenario.tissue.viscosity != tissue::Viscosity::none)
-      mesh += " and " + viscosity_with_waves();
-    return mesh;
-  }
-
-  // The viscosity with which waves reach the force: none, or a solid that relaxes in the contact
-  // too where the force has viscosity or would have it by the remedy beside this one.
-  [[nodiscard]] std::string viscosity_with_waves() const {
-    return neglects_viscosity() || !scene_.relaxation.elastic()
-               ? "`tissue.viscosity = \"standard_linear_solid\"`"
-               : "`tissue.viscosity = \"none\"`";
-  }
-
-  [[nodiscard]] bool neglects_viscosity() const {
-    return scene_.relaxation.elastic() && !mesh_is_tissue() && e_.viscous > 0.2 * tolerance();
-  }
-
-  const scene::Scene& scene_;
-  const scenario::ModelTraits& traits_;
-  const scene::Estimates& e_;
-  std::vector<Neglected> all_;
-};
-
-}  // namespace
-
-std::vector<Neglected> neglected(const scene::Scene& scene) { return AllNeglected(scene).all(); }
+std::vector<Neglected> neglected(const scene::Scene& scene) { return Words(scene).all_neglected(); }
 
 bool states_mesh_error(const scene::Scene& scene) {
   return !scene.scenario.uniform() &&

@@ -1,6 +1,7 @@
-// Runs the cases of a family: workers take the next task from a counter.
+// Builds, runs and times the cases of a family.
 #include "run/family.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "base/stop_scope.h"
@@ -10,6 +11,7 @@
 #include "run/pace.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
+#include "scenario/programme.h"
 #include "scenario/words.h"
 #include "scene/specimen_shape.h"
 
@@ -75,14 +77,6 @@ record::CaseRecord run_case(const scene::Scene& scene) {
   return record;
 }
 
-void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
-              const std::function<void(std::size_t, record::CaseRecord&&)>& ended) {
-  const StopScope scope(stop.end_now);
-  share_out(scenes.size(), workers, [&](std::size_t i) {
-    if (!stop.no_more()) ended(i, run_case(scenes[i]));
-  });
-}
-
 std::vector<record::CaseRecord> run_all(
     const std::vector<scene::Scene>& scenes, int workers,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished) {
@@ -98,6 +92,31 @@ std::vector<record::CaseRecord> run_all(
   for (auto& slot : slots)
     if (slot && slot->outcome != record::Outcome::interrupted) records.push_back(std::move(*slot));
   return records;
+}
+
+std::optional<double> share_done(const scene::Scene& scene, const record::CaseRecord& record) {
+  const double time = record::end_time(record);
+  const double whole = scenario::programme_time(scene.scenario);
+  return time > 0.0 && whole > 0.0 ? std::optional(std::min(1.0, time / whole)) : std::nullopt;
+}
+
+double expected_seconds(const std::vector<scene::Scene>& scenes) {
+  constexpr double longest = 3.0;  // s
+  // `solid` has no rows before its last mesh is done; most such cases are far.
+  constexpr double far = 1.0 / 3.0;
+  const Stopwatch watch;
+  double sum = 0.0;
+  std::size_t tried = 0;
+  for (; tried < scenes.size() && watch.seconds() < longest; ++tried) {
+    const scene::Scene& scene = scenes[(scenes.size() / 2 + tried) % scenes.size()];
+    const StopScope deadline(longest - watch.seconds());
+    const double before = processor_seconds();
+    const record::CaseRecord record = run_case(scene);
+    const double spent = processor_seconds() - before;
+    const bool ended = record.outcome != record::Outcome::interrupted;
+    sum += ended ? spent : spent / share_done(scene, record).value_or(far);
+  }
+  return tried == 0 ? 0.0 : sum / static_cast<double>(tried) * static_cast<double>(scenes.size());
 }
 
 }  // namespace palpate::run

@@ -1,8 +1,8 @@
 // Builds and runs all cases of a scenario on several workers (threads).
 #pragma once
 
-#include <atomic>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "record/record.h"
@@ -10,14 +10,6 @@
 #include "scene/scene.h"
 
 namespace palpate::run {
-
-// Flags that end running cases or prevent new ones.
-struct Stop {
-  const std::atomic<bool>& end_now;        // running cases end soon, as interrupted
-  const std::atomic<bool>& begin_no_more;  // no case is begun; running cases go on to their end
-
-  [[nodiscard]] bool no_more() const { return end_now.load() || begin_no_more.load(); }
-};
 
 // Builds every case, all by one_model(). Throws the exception of the first case (by number) that
 // has one.
@@ -41,9 +33,12 @@ void run_programme(const scene::Scene& scene, record::CaseRecord& record);
     const std::vector<scene::Scene>& scenes, int workers,
     const std::function<void(std::size_t, const record::CaseRecord&)>& finished);
 
-// The same without collecting the records: `ended` receives each one when its case has ended, on
-// the worker's thread, with several calls at a time.
-void run_each(const std::vector<scene::Scene>& scenes, int workers, const Stop& stop,
-              const std::function<void(std::size_t, record::CaseRecord&&)>& ended);
+// The share of its loading history that a case has gone through; nothing without rows.
+[[nodiscard]] std::optional<double> share_done(const scene::Scene& scene,
+                                               const record::CaseRecord& record);
+
+// The processor time (s) of all cases after their set-up, from running some of them for up to about
+// three seconds. A case that is not finished then counts by the share of its loading history.
+[[nodiscard]] double expected_seconds(const std::vector<scene::Scene>& scenes);
 
 }  // namespace palpate::run

@@ -73,6 +73,8 @@ namespace {
 
 using record::Finding;
 
+std::string millimetres(double length) { return rounded_text(unit::mm.from_si(length), 3) + " mm"; }
+
 class Findings {
  public:
   Findings(const scene::Scene& scene, record::CaseRecord& record)
@@ -81,6 +83,10 @@ class Findings {
         record_(record),
         before_(record.findings) {
     record_.findings.clear();
+    const auto peak = std::max_element(
+        record_.contact.begin(), record_.contact.end(),
+        [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; });
+    if (peak != record_.contact.end()) peak_ = *peak;
   }
 
   void all() {
@@ -105,6 +111,7 @@ class Findings {
                 "`solver.substeps`");
     }
     record_.answer = answer(scene_, record_);
+    known_failures();
   }
 
  private:
@@ -204,9 +211,7 @@ class Findings {
   }
 
   void contact() {
-    const auto peak = *std::max_element(
-        record_.contact.begin(), record_.contact.end(),
-        [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; });
+    const record::ContactRow& peak = peak_;
     const double radius = scene_.law().radius;
     const double thickness = scene_.thickness();
     add("effective_modulus_kPa", unit::kPa.from_si(scene_.law().modulus));
@@ -371,36 +376,11 @@ class Findings {
         }
   }
 
-  const scene::Scene& scene_;
-  const scenario::ModelTraits& traits_;
-  record::CaseRecord& record_;
-  std::vector<Finding> before_;
-  const scene::Estimates& expected_ = scene_.choice.expected;
-};
-
-}  // namespace
-
-void add_findings(const scene::Scene& scene, record::CaseRecord& record) {
-  Findings(scene, record).all();
-  add_known_failures(scene, record);
-}
-
-namespace {
-
-using scenario::Contact;
-
-std::string millimetres(double length) { return rounded_text(unit::mm.from_si(length), 3) + " mm"; }
-
-class KnownFailures {
- public:
-  KnownFailures(const scene::Scene& scene, record::CaseRecord& record)
-      : scene_(scene),
-        record_(record),
-        peak_(*std::max_element(
-            record.contact.begin(), record.contact.end(),
-            [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; })) {}
-
-  void all() {
+  // Of a press whose settings select a method that fails: a fixed edge too near, volumes that lock,
+  // a load on one node, curvature without sign, friction that jumps, Kelvin-Voigt tissue under a
+  // finger that turns back, and a stiffness that a device cannot render passively.
+  //                                                                     docs/theory.md [failures]
+  void known_failures() {
     if (peak_.contact_force <= 0.0) return;
     if (scene_.specimen) {
       edge();
@@ -413,19 +393,13 @@ class KnownFailures {
     device();
   }
 
- private:
-  void add(const char* name, double value) { record_.findings.push_back({name, value}); }
-  void warning(const std::string& sentence) { record_.warnings.push_back(sentence); }
-
   [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
 
   // A fixed edge at the distance rho acts like a bonded base there, which raises the force by the
   // factor 1 + c sqrt(R h) / rho, c = 0.86 at nu = 0.27 to 1.13 at 1/2.  docs/theory.md [failures]
   void edge() {
     if (!scene_.scenario.solver.rings) return;
-    double share = 0.0;
-    for (const record::Finding& finding : record_.findings)
-      if (finding.name == "edge_reaction_over_force") share = std::get<double>(finding.value);
+    const double share = record::number_of(record_, "edge_reaction_over_force").value_or(0.0);
     const scene::Specimen& specimen = *scene_.specimen;
     const scene::FirstTouch touch = scene::first_touch(scene_);
     std::vector<int> start;
@@ -491,11 +465,9 @@ class KnownFailures {
 
   // The displacement is of the order F / (E l) with the cell size l and does not converge.
   void one_node() {
-    if (scene_.scenario.contact.spread != Contact::Spread::nearest_node) return;
-    double sunk = 0.0;
-    for (const record::Finding& finding : record_.findings)
-      if (finding.name == "surface_displacement_mm")
-        sunk = unit::mm.to_si(std::get<double>(finding.value));
+    if (scene_.scenario.contact.spread != scenario::Contact::Spread::nearest_node) return;
+    const double sunk =
+        unit::mm.to_si(record::number_of(record_, "surface_displacement_mm").value_or(0.0));
     warning("all of the force is on one node, which has sunk by " + millimetres(sunk) +
             ": it would move about twice as far on a mesh of half the cells' size; write "
             "`contact.spread = \"pressure\"`");
@@ -526,7 +498,7 @@ class KnownFailures {
   // Without sticking, the whole friction force appears or vanishes from one row to the next.
   void sudden_friction() {
     const scenario::PlainContact& contact = scene_.scenario.contact;
-    if (contact.slip != Contact::Slip::coulomb || contact.friction <= 0.0) return;
+    if (contact.slip != scenario::Contact::Slip::coulomb || contact.friction <= 0.0) return;
     double jump = 0.0;
     for (std::size_t i = 1; i < record_.contact.size(); ++i)
       jump = std::max(jump,
@@ -588,14 +560,17 @@ class KnownFailures {
   }
 
   const scene::Scene& scene_;
+  const scenario::ModelTraits& traits_;
   record::CaseRecord& record_;
-  record::ContactRow peak_;
+  std::vector<Finding> before_;
+  record::ContactRow peak_;  // with the largest contact force
+  const scene::Estimates& expected_ = scene_.choice.expected;
 };
 
 }  // namespace
 
-void add_known_failures(const scene::Scene& scene, record::CaseRecord& record) {
-  if (!record.contact.empty()) KnownFailures(scene, record).all();
+void add_findings(const scene::Scene& scene, record::CaseRecord& record) {
+  Findings(scene, record).all();
 }
 
 }  // namespace palpate::run

@@ -1,13 +1,14 @@
-// Computes the numbers of rows and solver steps.
+// Computes the numbers of rows and solver steps, and fills rows.
 #include "run/pace.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "contact/friction.h"
 #include "mechanics/monitor.h"
 
 namespace palpate::run {
-
 namespace {
 
 int steps_a_row(const scene::Scene& scene) {
@@ -34,6 +35,31 @@ Pace make_open_pace(const scene::Scene& scene, double longest) {
   const double interval = scene.scenario.output.interval;
   const int rows = static_cast<int>(std::ceil(longest / interval));
   return {interval * rows, rows, steps_a_row(scene)};
+}
+
+record::ContactRow contact_row(const scene::Scene& scene, const mechanics::Touch& touch) {
+  const scenario::PlainContact& contact = scene.scenario.contact;
+  record::ContactRow row;
+  row.travel = touch.travel;
+  row.slide = touch.slide;
+  row.contact_force = touch.normal_force();
+  row.ambient = contact.ambient_force;
+  row.force = touch.force() + contact.ambient_force;
+  row.friction =
+      touch.contacts.empty()
+          ? 0.0
+          : contact::friction::limit(contact.friction, touch.pressed(), scene.finger.weight);
+  row.tangential = touch.drag().norm();
+  row.tissue_radius = std::numeric_limits<double>::infinity();
+  if (const mechanics::SphereContact* deepest = touch.deepest()) {
+    row.indentation = deepest->depth;
+    row.contact_radius = deepest->patch.radius();
+    row.peak_pressure = mechanics::peak_pressure(*deepest);
+    row.mesh_error = mechanics::mesh_error(*deepest);
+    if (deepest->law.mean_curvature != 0.0) row.tissue_radius = 1.0 / deepest->law.mean_curvature;
+  }
+  row.contacts = static_cast<int>(touch.contacts.size());
+  return row;
 }
 
 bool end_early(record::CaseRecord& record, record::Outcome outcome, const std::string& reason) {

@@ -1,8 +1,9 @@
-// Divides a step of the loading history into rows and solver steps; ends a case early.
+// Rows of a step of the loading history and its solver steps; ends a case early.
 #pragma once
 
 #include <string>
 
+#include "mechanics/contacts.h"
 #include "record/record.h"
 #include "scene/scene.h"
 
@@ -29,6 +30,11 @@ struct Pace {
 
 // The pace of a step whose end is not known, of at most `longest` s: rows of exactly one interval.
 [[nodiscard]] Pace make_open_pace(const scene::Scene& scene, double longest);
+
+// A touch as a row, without step and time: indentation, radius and pressure are those of the
+// deepest contact. Allocates nothing.
+[[nodiscard]] record::ContactRow contact_row(const scene::Scene& scene,
+                                             const mechanics::Touch& touch);
 
 // Marks the case as ended early, with a sentence; always returns false.
 [[nodiscard]] bool end_early(record::CaseRecord& record, record::Outcome outcome,

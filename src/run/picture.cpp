@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -249,11 +248,8 @@ record::ScenePicture picture_of(const scene::Scene& scene) {
     picture.finger.push_back({upright * (finger + centre), scene.finger.sphere_radius});
   picture.travel = scene::deepest_travel(scenario, scene.law());
   for (const scenario::Step& step : scenario.steps)
-    if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      const double angle = slide->direction * std::numbers::pi / 180.0;
-      picture.slides.emplace_back(upright *
-                                  (slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0)));
-    }
+    if (const auto* slide = std::get_if<scenario::Slide>(&step))
+      picture.slides.emplace_back(upright * slide->way());
   return picture;
 }
 

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "base/stop_scope.h"
 #include "base/units.h"
 #include "mechanics/half_space_contact.h"
 #include "mechanics/pressed_mesh.h"
-#include "run/contact_row.h"
 #include "run/picture.h"
 #include "run/pressure_map.h"
 #include "run/solid_press.h"
@@ -55,8 +53,7 @@ Motion make_motion(const scenario::Step& step, double travel, const Vec3& sidewa
     motion.to = retract->to;
     motion.duration = (travel - retract->to) / retract->rate;
   } else if (const auto* slide = std::get_if<Slide>(&step)) {
-    const double angle = slide->direction * std::numbers::pi / 180.0;
-    motion.end += slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    motion.end += slide->way();
     motion.duration = slide->by / slide->rate;
     motion.keeps_force = slide->keep == Slide::Keep::force;
   } else {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/text.h"
 #include "mechanics/pressed_mesh.h"
@@ -160,8 +159,7 @@ std::vector<Vec3> finger_way(const scenario::Resolved& scenario) {
   std::vector<Vec3> found{Vec3::Zero()};
   for (const scenario::Step& step : scenario.steps)
     if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      const double angle = slide->direction * std::numbers::pi / 180.0;
-      const Vec3 way = slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0);
+      const Vec3 way = slide->way();
       const Vec3 start = found.back();
       found.emplace_back(start + 0.5 * way);
       found.emplace_back(start + way);

@@ -7,7 +7,6 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "scenario/direction.h"
 #include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"

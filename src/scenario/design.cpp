@@ -106,16 +106,14 @@ Node value_of(const std::string& text, const std::string& unit, const Place& pla
     node.kind = digits ? Node::Kind::integer : Node::Kind::real;
     node.number = *number;
   } else if (number) {
-    node.kind = Node::Kind::text;
-    node.text = text + " " + unit;
+    node = text_node(text + " " + unit);
   } else if (text == "true" || text == "false") {
     node.kind = Node::Kind::boolean;
     node.boolean = text == "true";
   } else if (text.starts_with('[') || text.starts_with('{')) {
     node = parse_assignment("cell=" + text).second;
   } else {
-    node.kind = Node::Kind::text;
-    node.text = text;
+    node = text_node(text);
   }
   set_place(node, place);
   return node;
@@ -155,22 +153,6 @@ std::string value_word(const std::string& key, const Node& value, std::size_t in
   return names_file(key) ? std::filesystem::path(shown).filename().string() : shown;
 }
 
-void CommonUnit::add(const Node& value) {
-  std::optional<std::string> unit;
-  if (value.is_number()) {
-    unit = "";
-  } else if (value.kind == Node::Kind::text) {
-    const std::string text = trimmed(value.text);
-    const auto number = leading_number(text);
-    if (number && !trimmed(number->rest).empty()) unit = trimmed(number->rest);
-  }
-  if (!begun_)
-    unit_ = unit;
-  else if (unit_ != unit)
-    unit_.reset();
-  begun_ = true;
-}
-
 CaseTable::CaseTable(std::string text, std::string path)
     : text_(std::move(text)), path_(std::move(path)) {
   refuse_no_text(text_, path_, "give a CSV file");
@@ -188,7 +170,7 @@ CaseTable::CaseTable(std::string text, std::string path)
       continue;
     }
     for (const Cell& cell : cells_of(given, {path_, line, 0})) {
-      Column column{cell.text, {path_, line, cell.column}, {}, {}};
+      Column column{cell.text, {path_, line, cell.column}, {}};
       const std::size_t open = cell.text.rfind('[');
       if (open != std::string::npos && cell.text.ends_with(']')) {
         column.unit = trimmed(cell.text.substr(open + 1, cell.text.size() - open - 2));
@@ -213,12 +195,7 @@ CaseTable::CaseTable(std::string text, std::string path)
         "the file has no header; name a key a column, as `tissue.young_modulus [kPa]`");
   if (rows_.empty())
     throw InputError({path_, line, 1}, "the file has a header alone; add a row for every case");
-  std::vector<CommonUnit> units(columns_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::vector<Setting> settings = row(i);
-    for (std::size_t c = 0; c < columns_.size(); ++c) units[c].add(settings[c].value);
-  }
-  for (std::size_t c = 0; c < columns_.size(); ++c) columns_[c].common_unit = units[c].unit();
+  for (std::size_t i = 0; i < rows_.size(); ++i) (void)row(i);  // refuses what is wrong in it
 }
 
 std::vector<Setting> CaseTable::row(std::size_t i) const {
@@ -367,9 +344,7 @@ Design::Design(CaseTable table)
     : kind_(Kind::csv), count_(table.size()), named_by_words_(false), table_(std::move(table)) {
   for (const CaseTable::Column& column : table_.columns()) {
     keys_.push_back(column.key);
-    factors_.push_back({column.key,
-                        {{column.key, column.place, {}, std::nullopt, column.common_unit, {}}},
-                        false});
+    factors_.push_back({column.key, {{column.key, column.place, {}, std::nullopt, {}}}, false});
   }
 }
 
@@ -431,15 +406,9 @@ std::string Design::case_name(std::size_t i,
 Design Design::only(std::size_t i) const {
   std::vector<Factor> factors;
   for (const Setting& setting : settings(i)) {
-    Node list;
-    list.kind = Node::Kind::array;
-    list.items = {setting.value};
-    CommonUnit unit;
-    unit.add(setting.value);
+    const Node list = list_node({setting.value});
     factors.push_back(
-        {setting.key,
-         {{setting.key, setting.place, {setting.value}, std::nullopt, unit.unit(), list}},
-         false});
+        {setting.key, {{setting.key, setting.place, list.items, std::nullopt, list}}, false});
   }
   return {Kind::grid, factors};
 }
@@ -448,9 +417,7 @@ std::string Design::toml() const {
   if (empty()) return "";
   std::string text = "\n[sweep]\ndesign = \"" + design_words()[as_index(kind_)] + "\"\n";
   if (kind_ == Kind::csv) {
-    Node file;
-    file.kind = Node::Kind::text;
-    file.text = table_.path();
+    Node file = text_node(table_.path());
     use_copies(file, "file");
     return text + "file = " + toml_value(file) + "\n";
   }

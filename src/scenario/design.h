@@ -44,17 +44,6 @@ struct Setting {
 // that they repeat, tables as their number in the list (from 1; `index` is counted from 0).
 [[nodiscard]] std::string value_word(const std::string& key, const Node& value, std::size_t index);
 
-// Finds the unit that all added values are written in; see Varied::unit.
-class CommonUnit {
- public:
-  void add(const Node& value);
-  [[nodiscard]] const std::optional<std::string>& unit() const { return unit_; }
-
- private:
-  std::optional<std::string> unit_;
-  bool begun_ = false;
-};
-
 // Keeps the text of the file and parses a row when it is requested, so that a million rows need no
 // more memory than their file.
 class CaseTable {
@@ -62,8 +51,7 @@ class CaseTable {
   struct Column {
     std::string key;
     Place place;
-    std::string unit;                        // from the header, `key [unit]`; may be empty
-    std::optional<std::string> common_unit;  // of all rows; see Varied::unit
+    std::string unit;  // from the header, `key [unit]`; may be empty
   };
 
   CaseTable() = default;
@@ -112,8 +100,6 @@ struct Varied {
   Place place;
   std::vector<Node> levels;          // a list; empty for a range and for a column of a CSV file
   std::optional<Interval> interval;  // or a range
-  std::optional<std::string> unit;   // of all values; empty for pure numbers; nothing if they are
-                                     // not numbers, or have different units
   Node given;                        // as written, for the echo
 };
 

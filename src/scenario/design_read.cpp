@@ -289,16 +289,11 @@ class DesignReader {
                                         "\" = [\"...\", \"...\"]`, or a range, `{ from = ..., to = "
                                         "... }`");
     }
-    Varied varied{key, entry.place, {}, std::nullopt, std::nullopt, value};
-    if (range) {
+    Varied varied{key, entry.place, {}, std::nullopt, value};
+    if (range)
       varied.interval = read_interval(key, value);
-      varied.unit = varied.interval->unit;
-    } else {
+    else
       varied.levels = value.items;
-      CommonUnit unit;
-      for (const Node& level : varied.levels) unit.add(level);
-      varied.unit = unit.unit();
-    }
     const auto same = [&](const Factor& other) { return !other.row && other.name == key; };
     const auto known = std::find_if(factors.begin(), factors.end(), same);
     if (known != factors.end() && from_command_line(entry.place)) {

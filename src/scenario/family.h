@@ -97,6 +97,10 @@ inline constexpr std::size_t most_cases = 1000;  // of a family whose cases are 
 [[nodiscard]] std::vector<std::string> unread_keys(const Family& family, std::size_t i,
                                                    Solver::Model chosen);
 
+// Whether Poisson's ratio affects the contact only, and the text that says so.
+[[nodiscard]] bool poisson_in_contact_only(const Scenario& scenario);
+extern const char* const poisson_in_contact_only_text;
+
 // The family with case i as its only case; the other cases are not checked.
 [[nodiscard]] Family parse_case(const std::string& text, const std::string& path,
                                 const std::vector<std::string>& settings, std::size_t i);

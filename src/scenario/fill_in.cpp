@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/files.h"
-#include "base/unit_factor.h"
 #include "base/units.h"
 #include "material/tissue_table.h"
 #include "scenario/family.h"

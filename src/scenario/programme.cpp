@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "base/text.h"
 
 namespace palpate::scenario {
 
@@ -28,6 +29,24 @@ double duration(const Step& step, double& travel) {
 
 }  // namespace
 
+std::optional<Vec3> direction_of(const std::string& text) {
+  const bool back = text.starts_with('-');
+  const std::string axis = text.substr(back || text.starts_with('+') ? 1 : 0);
+  for (int k = 0; k < 3; ++k)
+    if (axis == std::string(1, "xyz"[k])) return (back ? -1.0 : 1.0) * Vec3::Unit(k);
+  Vec3 vector = Vec3::Zero();
+  int count = 0;
+  for (const std::string& word : split(text, ' ')) {
+    if (word.empty()) continue;
+    const auto number = whole_number(word);
+    if (!number || count == 3) return std::nullopt;
+    vector[count++] = *number;
+  }
+  const double length = vector.norm();
+  if (count < 3 || !(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+  return vector / length;
+}
+
 double programme_time(const PlainScenario& scenario) {
   double total = 0.0;
   double travel = 0.0;
@@ -42,9 +61,9 @@ std::vector<std::array<double, 2>> finger_places(const Resolved& scenario, const
   for (const Step& step : scenario.steps) {
     const auto* slide = std::get_if<Slide>(&step);
     if (slide == nullptr) continue;
-    const double angle = slide->direction * std::numbers::pi / 180.0;
-    x += slide->by * std::cos(angle);
-    y += slide->by * std::sin(angle);
+    const Vec3 way = slide->way();
+    x += way.x();
+    y += way.y();
     places.push_back({x, y});
   }
   return places;

@@ -10,6 +10,9 @@
 
 namespace palpate::scenario {
 
+// The unit vector of `x`, `-y` or three numbers such as `0 0.2 1`; empty for other texts.
+[[nodiscard]] std::optional<Vec3> direction_of(const std::string& text);
+
 // The duration of all steps, s; a step to a force counts as zero.
 [[nodiscard]] double programme_time(const PlainScenario& scenario);
 

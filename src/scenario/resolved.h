@@ -73,4 +73,7 @@ struct Found {
 // The same, with model, integrator, and viscosity and depth of the contact as resolved.
 [[nodiscard]] Scenario answered(const Case& one, const Resolved& resolved);
 
+// A tissue's viscous law: `Kelvin-Voigt, retardation time 0.1 s`; `none` without viscosity.
+[[nodiscard]] std::string viscosity_text(const Resolved::Tissue& tissue);
+
 }  // namespace palpate::scenario

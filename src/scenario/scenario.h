@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "base/fields.h"
+#include "base/vec3.h"
 #include "contact/coupling.h"
 #include "contact/law.h"
 #include "finger/layer.h"
@@ -273,6 +276,11 @@ struct Slide {
   double rate = 0.005;     // m/s
   double direction = 0.0;  // degrees from x towards y
   Keep keep = Keep::displacement;
+
+  [[nodiscard]] Vec3 way() const {  // m
+    const double angle = direction * std::numbers::pi / 180.0;
+    return by * Vec3(std::cos(angle), std::sin(angle), 0.0);
+  }
 };
 struct Creep {
   static constexpr Word word{

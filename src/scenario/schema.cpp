@@ -1,7 +1,11 @@
-// The tree of all keys, and what [sweep] adds to it.
+// The tree of all keys, and what [sweep] adds to it; starters.
 #include "scenario/schema.h"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/error.h"
@@ -12,44 +16,150 @@
 #include "scenario/scenario.h"
 
 namespace palpate::scenario {
+
+// Of scenario/texts/. Their first line makes editors with Taplo check them against `palpate schema
+// > palpate.schema.json`.
+extern const std::string_view press_text, creep_text, relax_text, compress_text, organ_text,
+    sweep_text, live_text;
+
 namespace {
 
-KeyTree tree() {
+KeyTree all_keys() {
   Scenario scenario;
   return fields_as_tree([&](FieldVisitor& visitor) { fields(visitor, scenario); });
 }
 
-// design_read.cpp checks the keys of [sweep] by their names, which are other keys' paths.
-std::string sweep_schema() {
-  std::vector<std::string> designs;
-  for (const std::string& word : design_words()) designs.push_back("\"" + word + "\"");
-  const auto whole = [](const char* least) {
-    return json_object({{"type", "\"integer\""}, {"minimum", least}});
+using Json = nlohmann::ordered_json;
+using KeyKind = KeyTree::Kind;
+
+Json any_schema(const std::vector<Json>& schemas) {
+  Json different = Json::array();
+  for (const Json& schema : schemas)
+    if (std::find(different.begin(), different.end(), schema) == different.end())
+      different.push_back(schema);
+  return different.size() == 1 ? different[0] : Json{{"anyOf", different}};
+}
+
+Json number_schema(KeyKind kind, const Range& range) {
+  Json schema{{"type", kind == KeyKind::whole ? "integer" : "number"}};
+  if (std::isfinite(range.low))
+    schema[range.low_allowed ? "minimum" : "exclusiveMinimum"] = range.low;
+  if (std::isfinite(range.high))
+    schema[range.high_allowed ? "maximum" : "exclusiveMaximum"] = range.high;
+  return schema;
+}
+
+// Of a quantity, a number and a unit as one text, the sign alone is checked of the range.
+Json one_schema(const KeyTree& key, KeyKind kind) {
+  if (kind != KeyKind::quantity) return number_schema(kind, key.range);
+  std::string units;
+  for (const Unit& unit : key.units)
+    units += (units.empty() ? "" : "|") + unit_pattern(unit.dimension);
+  const std::string sign = key.range.low >= 0.0 ? "\\+?" : "[-+]?";
+  return {{"type", "string"},
+          {"pattern", "^\\s*" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*(" +
+                          units + ")\\s*$"}};
+}
+
+Json table_schema(const KeyTree& key);
+
+Json value_schema(const KeyTree& key) {
+  Json schema{{"description", key.meaning}};
+  switch (key.kind) {
+    case KeyKind::number:
+    case KeyKind::whole:
+    case KeyKind::quantity:
+      schema["allOf"] = Json::array(
+          {key.open == nullptr ? one_schema(key, key.kind)
+                               : any_schema({one_schema(key, key.kind), {{"const", key.open}}})});
+      break;
+    case KeyKind::text: schema["type"] = "string"; break;
+    case KeyKind::flag: schema["type"] = "boolean"; break;
+    case KeyKind::word: {
+      std::string meaning = key.meaning;
+      for (const Word& word : key.words) {
+        schema["enum"].push_back(word.word);
+        if (*word.meaning != '\0') meaning += std::string(" `") + word.word + "`: " + word.meaning;
+      }
+      schema["description"] = meaning;
+      break;
+    }
+    case KeyKind::list:
+      schema["type"] = "array";
+      schema["items"] = one_schema(key, key.item);
+      if (!key.size) break;
+      schema["minItems"] = *key.size;
+      schema["maxItems"] = *key.size;
+      break;
+    case KeyKind::names:
+      schema["type"] = "object";
+      schema["additionalProperties"] = number_schema(KeyKind::number, key.range);
+      break;
+    case KeyKind::table: schema.update(table_schema(key)); break;
+    case KeyKind::tables: schema["type"] = "array"; schema["items"] = table_schema(key);
+  }
+  return schema;
+}
+
+// A table allows the keys of all its kinds; where `kind` is given, those of that kind only.
+Json table_schema(const KeyTree& key) {
+  Json kinds, conditions;
+  std::vector<std::pair<std::string, std::vector<Json>>> schemas;
+  const auto add = [&](const KeyTree& one) {
+    auto known = std::find_if(schemas.begin(), schemas.end(),
+                              [&](const auto& other) { return other.first == one.name; });
+    if (known == schemas.end()) known = schemas.insert(known, {one.name, {}});
+    known->second.push_back(value_schema(one));
   };
-  const std::string lists = json_object({{"type", R"(["array", "object"])"}});
-  return json_object(
-      {{"description", "\"Makes a family of cases: lists or ranges of values, by a key's path.\""},
-       {"type", "\"object\""},
-       {"properties",
-        json_object(
-            {{"design", json_object({{"enum", json_array(designs)}})},
-             {"samples", whole("1")},
-             {"seed", whole("0")},
-             {"file", json_object({{"type", "\"string\""}})},
-             {"rows", json_object({{"type", "\"array\""},
-                                   {"items", json_object({{"type", "\"object\""},
-                                                          {"additionalProperties", lists}})}})}})},
-       {"additionalProperties", lists}});
+  for (const KeyTree& one : key.keys) add(one);
+  for (const KeyTree::Alternative& alternative : key.alternatives) {
+    kinds.push_back(alternative.word.word);
+    Json names = Json::array({"kind"});
+    for (const KeyTree& one : alternative.keys) {
+      add(one);
+      names.push_back(one.name);
+    }
+    conditions.push_back({{"if",
+                           {{"properties", {{"kind", {{"const", alternative.word.word}}}}},
+                            {"required", Json::array({"kind"})}}},
+                          {"then", {{"propertyNames", {{"enum", names}}}}}});
+  }
+  Json schema{{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+  if (!kinds.empty()) schema["properties"]["kind"] = {{"enum", kinds}};
+  for (const auto& [name, all] : schemas) schema["properties"][name] = any_schema(all);
+  if (!conditions.empty()) schema["allOf"] = conditions;
+  return schema;
+}
+
+// design_read.cpp checks the keys of [sweep] by their names, which are other keys' paths.
+Json sweep_schema() {
+  const auto whole = [](int least) { return Json{{"type", "integer"}, {"minimum", least}}; };
+  const Json lists{{"type", {"array", "object"}}};
+  return {
+      {"description", "Makes a family of cases: lists or ranges of values, by a key's path."},
+      {"type", "object"},
+      {"properties",
+       {{"design", {{"enum", design_words()}}},
+        {"samples", whole(1)},
+        {"seed", whole(0)},
+        {"file", {{"type", "string"}}},
+        {"rows",
+         {{"type", "array"}, {"items", {{"type", "object"}, {"additionalProperties", lists}}}}}}},
+      {"additionalProperties", lists}};
 }
 
 }  // namespace
 
 std::string schema() {
-  return json_schema(tree(), "A scenario of palpate", {{"sweep", sweep_schema()}});
+  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
+              {"title", "A scenario of palpate"}};
+  schema.update(table_schema(all_keys()));
+  schema["properties"]["sweep"] = sweep_schema();
+  return schema.dump() + "\n";
 }
 
 std::vector<FlatKey> settable_keys() {
-  std::vector<FlatKey> keys = flat_keys(tree());
+  std::vector<FlatKey> keys = flat_keys(all_keys());
   for (FlatKey& key : keys) {
     if (!key.path.ends_with("material")) continue;
     for (const auto& [name, title] : material::builtin())
@@ -155,6 +265,19 @@ std::string meaning_of_key(const std::string& asked) {
   const auto near = nearest(key, known);
   refuse("`" + asked + "` is neither a file nor a key" +
          (near ? "; did you mean `" + *near + "`?" : "; `palpate manual` lists all keys"));
+}
+
+std::span<const Starter> starters() {
+  static const std::array all{
+      Starter{{"press", "a finger presses, waits and withdraws"}, press_text},
+      Starter{{"creep", "a constant stress: strain over time"}, creep_text},
+      Starter{{"relax", "a constant strain: stress over time"}, relax_text},
+      Starter{{"compress", "a strain that grows: stress over strain"}, compress_text},
+      Starter{{"organ", "a body of its own shape, with a stiff inclusion"}, organ_text},
+      Starter{{"sweep", "a family of cases"}, sweep_text},
+      Starter{{"live", "a press by a test stand"}, live_text},
+  };
+  return all;
 }
 
 }  // namespace palpate::scenario

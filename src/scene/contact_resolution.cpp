@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -23,8 +22,7 @@ std::vector<Vec3> places(const Scene& scene, double apart) {
   for (const scenario::Step& step : scene.scenario.steps) {
     const auto* slide = std::get_if<scenario::Slide>(&step);
     if (slide == nullptr) continue;
-    const double angle = slide->direction * std::numbers::pi / 180.0;
-    const Vec3 move = slide->by * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    const Vec3 move = slide->way();
     const Vec3 start = all.back();
     const int pieces = std::max(1, static_cast<int>(std::ceil(slide->by / apart)));
     for (int i = 1; i <= pieces; ++i) all.emplace_back(start + move * i / pieces);

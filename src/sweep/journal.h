@@ -8,7 +8,6 @@
 #include "record/journal.h"
 #include "sweep/plan.h"
 #include "sweep/row.h"
-#include "sweep/shard.h"
 
 namespace palpate::sweep {
 

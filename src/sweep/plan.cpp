@@ -1,33 +1,53 @@
-// Makes a plan from copies of its inputs in a temporary folder, which is then renamed.
+// Makes a plan from copies of its inputs in a temporary folder, which is then renamed. Times cases
+// as a sweep runs them, and counts how often what they share has to be made.
 #include "sweep/plan.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "base/document.h"
+#include "base/error.h"
 #include "base/files.h"
+#include "base/stop_scope.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "base/whole_folder.h"
 #include "record/csv.h"
 #include "record/table.h"
 #include "run/choose.h"
+#include "run/family.h"
+#include "run/refined_mesh.h"
 #include "run/share_out.h"
+#include "scenario/programme.h"
+#include "scene/estimates.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
+#include "scene/surface_displacement_store.h"
 #include "sweep/journal.h"
-#include "sweep/plan_file.h"
 #include "sweep/row.h"
-#include "sweep/shard.h"
 
 namespace palpate::sweep {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 // A case as a row of plan.csv.
 struct PlannedCase {
@@ -304,6 +324,272 @@ SweepPlan read_plan(const std::string& folder, const std::string& program) {
   plan.family.at_least = file.model;
   if (plan.family.base.title.empty()) plan.family.title = file.name;
   return plan;
+}
+
+std::string plan_text(const PlanFile& file) {
+  Json json;
+  json["palpate_sweep"] = 1;  // version of the file format
+  json["program"] = file.program;
+  json["scenario"] = file.name;
+  json["settings"] = file.settings;
+  json["curves"] = file.curves;
+  json["cases"] = file.cases;
+  if (file.model) json["model"] = scenario::traits(*file.model).word;  // of `auto`, for all cases
+  json["plan_csv_sha256"] = file.csv_hash;
+  json["inputs"] = Json::array();
+  for (const auto& [name, hash] : file.inputs)
+    json["inputs"].push_back({{"name", name}, {"sha256", hash}});
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+PlanFile read_plan_file(const std::string& text, const std::string& path) {
+  PlanFile file;
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("palpate_sweep") != 1) throw std::runtime_error("another form");
+    file.program = json.at("program");
+    file.name = json.at("scenario");
+    file.settings = json.at("settings").get<std::vector<std::string>>();
+    file.curves = json.at("curves");
+    const Json& cases = json.at("cases");
+    if (!cases.is_number_unsigned()) throw std::runtime_error("no number of cases");
+    file.cases = cases;
+    if (json.contains("model")) {
+      const auto named = [&](const scenario::ModelTraits& traits) {
+        return json["model"] == traits.word;
+      };
+      const auto* traits =
+          std::find_if(scenario::model_table.begin(), scenario::model_table.end(), named);
+      if (traits == scenario::model_table.end()) throw std::runtime_error("no model");
+      file.model = traits->of;
+    }
+    file.csv_hash = json.at("plan_csv_sha256");
+    for (const Json& input : json.at("inputs"))
+      file.inputs.emplace_back(input.at("name"), input.at("sha256"));
+  } catch (const std::exception&) {
+    throw InputError({path, 0, 0},
+                     "is damaged, or made by another version; put it back, or plan anew");
+  }
+  return file;
+}
+
+std::string differences(const PlanFile& a, const PlanFile& b) {
+  std::vector<std::string> names;
+  if (a.program != b.program) names.emplace_back("version of the program");
+  if (a.curves != b.curves) names.emplace_back("`--curves`");
+  if (a.cases != b.cases)
+    names.push_back("number of cases (" + std::to_string(a.cases) + ", not " +
+                    std::to_string(b.cases) + ")");
+  for (const auto& [name, hash] : b.inputs) {
+    bool same = false;
+    for (const auto& known : a.inputs) same = same || known == std::pair(name, hash);
+    if (!same) names.push_back(ticked(name));
+  }
+  if (names.empty()) names.emplace_back("`--set`");
+  return joined(names, ", ");
+}
+
+HashedNames hashed_inputs(const scenario::Family& family) {
+  HashedNames names;
+  for (const scenario::InputFile& input : family.inputs)
+    names.emplace_back(input.name, sha256(input.content));
+  return names;
+}
+
+std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
+  // What only says how results are shown, or is left open, and did not exist when the first plans
+  // were made, changes no id: ids name results of years.
+  constexpr std::array<std::string_view, 7> later{
+      "paper = ",  "picture = ",   "png = ",         "regression = ",
+      "report = ", "tissue_at = ", "size = \"auto\""};
+  std::string text;
+  for (const std::string& line : split(scenario::spelled_out(one), '\n'))
+    if (std::none_of(later.begin(), later.end(),
+                     [&](std::string_view key) { return line.starts_with(key); }))
+      text += (text.empty() ? "" : "\n") + line;
+  if (one.at_least && *one.at_least != scenario::Model::hertz && !one.scenario.solver.model)
+    text += std::string("\nat_least = ") + scenario::traits(*one.at_least).word;
+  for (const auto& [name, hash] : files)
+    if (std::find(one.files.begin(), one.files.end(), name) != one.files.end())
+      text += name + " " + hash + "\n";
+  return id_of(sha256(text).substr(0, 16)).value_or(0);
+}
+
+std::uint64_t twin_id(std::uint64_t id, std::size_t number) {
+  return id_of(sha256(id_text(id) + " " + std::to_string(number)).substr(0, 16)).value_or(0);
+}
+
+std::string Shard::text() const { return std::to_string(number) + "-of-" + std::to_string(of); }
+
+Shard parse_shard(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto number = whole_number(text.substr(0, slash));
+  const auto of = whole_number(text.substr(std::min(slash + 1, text.size())));
+  constexpr double most = 1e8;  // as `--of`; a double beyond 2^64 has no whole number of its own
+  if (!number || !of || *number < 1.0 || *number > *of || *of > most ||
+      std::fmod(*number, 1.0) != 0.0 || std::fmod(*of, 1.0) != 0.0)
+    throw InputError({}, "`--shard` wants a part and the number of parts, got `" + text +
+                             "`; write `--shard 3/16`");
+  return {static_cast<std::size_t>(*number), static_cast<std::size_t>(*of)};
+}
+
+FolderLock::FolderLock(const std::string& folder, const std::string& name) {
+  make_folders(folder + "/locks");
+  const std::string path = folder + "/locks/" + name + ".lock";
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) throw SystemError(path + " cannot be made: " + std::strerror(errno));
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    const int reason = errno;
+    if (reason == ENOSYS || reason == ENOLCK || reason == EOPNOTSUPP) {
+      warning_ = folder + ": its file system has no locks, so that two processes may run part " +
+                 name + " at once, which costs time and does no harm";
+      return;
+    }
+    ::close(file_);
+    const std::string text = trimmed(read_text(path));
+    const std::string who = text.empty() ? "another process" : text;
+    if (reason == EWOULDBLOCK)
+      throw PartIsRun({folder, 0, 0}, "part " + name + " is run already, by " + who +
+                                          "; wait for it, or run another `--shard`");
+    throw SystemError(path + " cannot be locked: " + std::strerror(reason));
+  }
+  const std::string who = "process " + std::to_string(::getpid()) + " on " + host_name() + "\n";
+  // The text only informs users: if it cannot be written, the lock holds all the same.
+  if (::ftruncate(file_, 0) != 0 || ::pwrite(file_, who.data(), who.size(), 0) < 0) return;
+}
+
+FolderLock::~FolderLock() { ::close(file_); }
+
+namespace {
+
+// Cases that differ only in what a set-up does not depend on have equal texts.
+std::string set_up_key(const scenario::Family& family, std::size_t i, bool meshed) {
+  const bool one_tissue = family.base.regions.empty();
+  std::string text;
+  for (const scenario::Setting& setting : family.design.settings(i)) {
+    const std::string& key = setting.key;
+    const bool scales = one_tissue && key == "tissue.young_modulus";
+    const bool after = !meshed && !key.starts_with("tissue.") && !key.starts_with("region");
+    if (!scales && !after) text += setting.word + "\n";
+  }
+  return text;
+}
+
+class Trial {
+ public:
+  Trial(const scenario::Family& family, bool keeps_curves)
+      : family_(family), keeps_curves_(keeps_curves), files_(hashed_inputs(family)) {}
+
+  // The time of all cases, s; nothing if a case does not end as it should.
+  std::optional<double> seconds() {
+    constexpr double most = 8.0;           // cases
+    constexpr double most_nodes = 2000.0;  // of all cases, because a set-up cannot be interrupted
+    const std::size_t count = family_.design.count();
+    const scenario::Case middle = scenario::make_case(family_, count / 2);
+    const bool meshed = middle.scenario.meshed();
+    const double nodes = meshed ? scene::expected_nodes(middle.scenario.tissue.mesh) : 1.0;
+    const std::size_t tried =
+        std::min(count, static_cast<std::size_t>(std::clamp(most_nodes / nodes, 1.0, most)));
+    const std::size_t first = std::min(count / 2, count - tried);
+    std::set<std::string> keys;
+    for (std::size_t i = first; i < first + tried; ++i) keys.insert(set_up_key(family_, i, meshed));
+
+    const std::optional<double> apart = run(first, tried);
+    if (!apart) return alone(middle);
+    if (tried == count) return apart;
+    const std::optional<double> shared = run(first, tried);
+    if (!shared) return std::nullopt;
+    const double set_up = std::max(0.0, *apart - *shared) / static_cast<double>(keys.size());
+    return set_up * set_ups(family_, meshed) +
+           *shared / static_cast<double>(tried) * static_cast<double>(count);
+  }
+
+ private:
+  static constexpr double longest = 1.0;  // s
+
+  // How long cases take, with what earlier calls have left; nothing after `longest`.
+  std::optional<double> run(std::size_t first, std::size_t count) {
+    const Stopwatch watch;
+    std::vector<scene::Scene> scenes;
+    for (std::size_t i = first; i < first + count && watch.seconds() < longest; ++i) {
+      const scenario::Case one = scenario::make_case(family_, i);
+      (void)case_id(one, files_);
+      scenes.push_back(run::build_scene(one, family_, shapes_));
+      scenes.back().scenario.output.keep_rows_only();
+      scenes.back().surface_displacements = &surface_displacements_;
+    }
+    const StopScope deadline(longest - watch.seconds());
+    for (const scene::Scene& scene : scenes) {
+      const record::CaseRecord record = run::run_case(scene);
+      if (record.outcome == record::Outcome::interrupted) return std::nullopt;
+      (void)row_of(scene, record, keeps_curves_);
+    }
+    return scenes.size() == count ? std::optional(watch.seconds()) : std::nullopt;
+  }
+
+  // From one case, which may end early.
+  std::optional<double> alone(const scenario::Case& one) {
+    const Stopwatch watch;
+    scene::Scene scene = run::build_scene(one, family_, shapes_);
+    const double set_up = std::max(watch.seconds(), shapes_.seconds(scene.scenario));
+    scene.scenario.output.keep_rows_only();
+    const StopScope deadline(longest);
+    const Stopwatch running_watch;
+    const record::CaseRecord record = run::run_case(scene);
+    const std::optional<double> done = run::share_done(scene, record);
+    if (!done) return std::nullopt;
+    const double running = running_watch.seconds() / *done;
+    return set_up * set_ups(family_, true) + running * static_cast<double>(family_.design.count());
+  }
+
+  const scenario::Family& family_;
+  bool keeps_curves_;
+  HashedNames files_;
+  scene::SpecimenShapes shapes_;
+  scene::SurfaceDisplacementStore surface_displacements_;
+};
+
+// The largest memory of this process so far, bytes: it has had more cases at once than a worker.
+double most_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // Linux counts in KiB
+}
+
+}  // namespace
+
+double set_ups(const scenario::Family& family, bool meshed) {
+  constexpr std::size_t most = 2048;
+  const std::size_t count = family.design.count();
+  const std::size_t tries = std::min(count, most);
+  std::set<std::string> found;
+  for (std::size_t t = 0; t < tries; ++t)
+    found.insert(set_up_key(family, t * count / tries, meshed));
+  const auto different = static_cast<double>(found.size());
+  const auto tried = static_cast<double>(tries);
+  return different < 0.5 * tried ? different : different / tried * static_cast<double>(count);
+}
+
+std::string SweepForecast::text() const {
+  return "about " + rounded_text(seconds, 2) + " s on one worker and " +
+         rounded_text(bytes / 1e6, 2) + " MB" + (curves ? " besides the curves" : "");
+}
+
+std::optional<SweepForecast> forecast(const scenario::Family& family, bool keeps_curves) {
+  constexpr double row = 2400.0;  // bytes, about; docs/sweeps.md
+  std::optional<double> seconds;
+  try {
+    seconds = Trial(family, keeps_curves).seconds();
+  } catch (const InputError&) {  // planning reports invalid cases
+  } catch (const MeshError&) {
+  }
+  if (!seconds) return std::nullopt;
+  const std::size_t cases = family.design.count();
+  return SweepForecast{.cases = cases,
+                       .seconds = *seconds,
+                       .bytes = row * static_cast<double>(cases),
+                       .memory = most_memory(),
+                       .curves = keeps_curves};
 }
 
 }  // namespace palpate::sweep

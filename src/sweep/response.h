@@ -8,8 +8,8 @@
 #include "plot/contours.h"
 #include "plot/gnuplot.h"
 #include "record/table.h"
-#include "sweep/answer.h"
 #include "sweep/columns.h"
+#include "sweep/merge.h"
 #include "sweep/sensitivity.h"
 
 namespace palpate::sweep {
@@ -18,12 +18,12 @@ namespace palpate::sweep {
 struct Response {
   std::string name = {};  // of its files, without extension
   std::string title = {};
-  std::string output = {};                        // column
-  sweep::FactorChoice across = {};                // x: the first factor that is a number
-  std::optional<sweep::FactorChoice> along = {};  // y or curves: the next number, else words
-  std::vector<std::string> words = {};            // of `along`, if it is not a number
-  plot::ValueGrid grid = {};                      // y: 0, 1, ... if `along` is not a number
-  bool logarithmic = false;                       // scale of the values
+  std::string output = {};                 // column
+  FactorChoice across = {};                // x: the first factor that is a number
+  std::optional<FactorChoice> along = {};  // y or curves: the next number, else words
+  std::vector<std::string> words = {};     // of `along`, if it is not a number
+  plot::ValueGrid grid = {};               // y: 0, 1, ... if `along` is not a number
+  bool logarithmic = false;                // scale of the values
 
   [[nodiscard]] bool is_map() const { return along && words.empty(); }
 };
@@ -31,8 +31,8 @@ struct Response {
 // The response on a full grid; nothing if no factor with several levels is a number, or if none of
 // the response's cases has a value. Only every k-th level is taken of a factor with more than 40
 // levels; the title then states k.
-[[nodiscard]] std::optional<Response> response(const sweep::SweepColumns& columns,
-                                               const sweep::OutputColumn& output,
+[[nodiscard]] std::optional<Response> response(const SweepColumns& columns,
+                                               const OutputColumn& output,
                                                const std::string& title);
 
 // NAME.csv, one row per point, curve after curve: across, along, for a map the edges of the point's
@@ -44,19 +44,7 @@ struct Response {
 [[nodiscard]] plot::Sheet response_sheet(const Response& response);
 
 // sweep_points.csv: number, factors and outputs of at most 3000 cases, evenly chosen.
-[[nodiscard]] record::Table scatter_table(const sweep::SweepColumns& columns);
-
-// One panel per factor, at most five: the output over the factor, coloured by another factor. With
-// two numeric factors or more, the first panel is their plane, coloured by the output. Reads
-// sweep_points.csv. Nothing if no factor is a number.
-[[nodiscard]] std::optional<plot::Sheet> points_sheet(const sweep::SweepColumns& columns,
-                                                      const sweep::OutputColumn& output,
-                                                      const std::string& title);
-
-// Bars of first-order and total indices with their intervals, one panel per output. Reads
-// sensitivity.csv. Nothing if there are no indices.
-[[nodiscard]] std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
-                                                           const std::string& title);
+[[nodiscard]] record::Table scatter_table(const SweepColumns& columns);
 
 // Writes all tables and figures of a sweep and of its sensitivity() into `folder`; without
 // `options` no figures. Returns sentences on what could not be drawn or computed. Throws

@@ -10,6 +10,7 @@
 #include "record/journal.h"
 #include "record/record.h"
 #include "record/table.h"
+#include "scene/scene.h"
 
 namespace palpate::sweep {
 
@@ -47,5 +48,10 @@ struct SweepRow {
 // Nothing if a column is missing or invalid. head_of() leaves the seal 0: it is not in the table.
 [[nodiscard]] std::optional<SweepHead> head_of(const record::Table& row);
 [[nodiscard]] std::optional<SweepRow> row_of(const record::Table& row);
+
+// What a sweep keeps of a finished case: findings, parameters of fits if the scenario asks for
+// them, and the curve if it is to be kept; without id and attempt.
+[[nodiscard]] SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record,
+                              bool keeps_curve);
 
 }  // namespace palpate::sweep

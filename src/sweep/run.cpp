@@ -14,13 +14,14 @@
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "run/family.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "scene/estimates.h"
 #include "scene/specimen_shape.h"
 #include "scene/surface_displacement_store.h"
-#include "sweep/case_row.h"
 #include "sweep/journal.h"
+#include "sweep/row.h"
 
 namespace palpate::sweep {
 namespace {
@@ -40,7 +41,7 @@ class Runner {
          const std::function<void(const SweepProgress&)>& told)
       : plan_(plan),
         task_(task),
-        stop_{broken_, no_more},
+        no_more_(no_more),
         files_(hashed_inputs(plan.family)),
         told_(told) {}
 
@@ -54,7 +55,7 @@ class Runner {
     {
       const std::jthread ticking([&](const std::stop_token& end) { beat(end); });
       const std::size_t block = block_cases * as_index(task_.workers);
-      for (std::size_t at = 0; at < numbers.size() && !stop_.no_more(); at += block)
+      for (std::size_t at = 0; at < numbers.size() && !ends(); at += block)
         run_block(std::span(numbers).subspan(at, std::min(block, numbers.size() - at)));
     }
     if (failure_) std::rethrow_exception(failure_);
@@ -70,6 +71,9 @@ class Runner {
     std::optional<scene::Scene> scene;
     bool tried = false;
   };
+
+  // Whether no further case begins.
+  [[nodiscard]] bool ends() const { return broken_ || no_more_; }
 
   // Rows are on the disk within a second.
   void beat(const std::stop_token& end) {
@@ -146,7 +150,7 @@ class Runner {
         made.one = std::move(one);
       });
     });
-    for (std::size_t at = 0; at < block.size() && !stop_.no_more();) {
+    for (std::size_t at = 0; at < block.size() && !ends();) {
       double nodes = 0.0;
       std::size_t end = at;
       while (end < block.size() && (end < at + as_index(task_.workers) || nodes < block_nodes)) {
@@ -155,7 +159,7 @@ class Runner {
           nodes += scene::expected_nodes(made.one->scenario.tissue.mesh);
       }
       for (const std::span part = std::span(block).subspan(at, end - at);
-           !stop_.no_more() && std::any_of(part.begin(), part.end(), waits);)
+           !ends() && std::any_of(part.begin(), part.end(), waits);)
         run_part(part);
       at = end;
     }
@@ -175,7 +179,7 @@ class Runner {
     run::share_out(part.size(), task_.workers, [&](std::size_t i) {
       Made& made = *part[i];
       const bool late = i >= as_index(task_.workers) && watch.seconds() > longest;
-      if (late || stop_.no_more()) return;
+      if (late || ends()) return;
       made.tried = true;
       attempt(made, [&] {
         made.scene = run::build_scene(*made.one, plan_.family, *shapes_);
@@ -192,22 +196,15 @@ class Runner {
       made->scene.reset();
       of_scene.push_back(made);
     }
-    std::vector<char> ended(scenes.size(), 0);
-    const auto keep_record = [&](std::size_t i, const record::CaseRecord& record) {
-      if (record.outcome == record::Outcome::interrupted) return;
-      SweepRow row = row_of(scenes[i], record, plan_.curves);
-      keep(of_scene[i]->number, std::move(row));
-      ended[i] = 1;
-    };
-    try {
-      run::run_each(scenes, task_.workers, stop_, keep_record);
-    } catch (const InputError&) {  // the loop below finds the case
-    } catch (const MeshError&) {
-    }
-    const StopScope scope(stop_.end_now);
-    for (std::size_t i = 0; i < scenes.size(); ++i)
-      if (ended[i] == 0 && !stop_.no_more())
-        attempt(*of_scene[i], [&] { keep_record(i, run::run_case(scenes[i])); });
+    const StopScope scope(broken_);
+    run::share_out(scenes.size(), task_.workers, [&](std::size_t i) {
+      if (ends()) return;
+      attempt(*of_scene[i], [&] {
+        const record::CaseRecord record = run::run_case(scenes[i]);
+        if (record.outcome != record::Outcome::interrupted)
+          keep(of_scene[i]->number, row_of(scenes[i], record, plan_.curves));
+      });
+    });
     for (Made* made : part)
       if (made->tried) made->one.reset();
   }
@@ -215,7 +212,7 @@ class Runner {
   const SweepPlan& plan_;
   const SweepTask& task_;
   std::atomic<bool> broken_ = false;  // the journal cannot be written
-  const run::Stop stop_;
+  const std::atomic<bool>& no_more_;
   const HashedNames files_;
   std::function<std::uint32_t(std::uint32_t)> attempt_;
   std::unique_ptr<record::Journal> journal_;

@@ -7,7 +7,6 @@
 
 #include "run/family.h"
 #include "sweep/plan.h"
-#include "sweep/shard.h"
 
 namespace palpate::sweep {
 

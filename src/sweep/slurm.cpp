@@ -1,7 +1,7 @@
 // The job file: a bash script that passes on signals and queues an unfinished task again.
 #include "sweep/slurm.h"
 
-#include "base/shell_word.h"
+#include "base/text.h"
 
 namespace palpate::sweep {
 namespace {

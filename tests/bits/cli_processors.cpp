@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "program.h"
-#include "scenario/starters.h"
+#include "scenario/schema.h"
 
 namespace palpate::test {
 namespace {

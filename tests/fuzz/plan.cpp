@@ -1,6 +1,6 @@
 // Any text as the plan.json of a sweep: one that is read is written as a text that reads the same.
+#include "sweep/plan.h"
 #include "fuzzing.h"
-#include "sweep/plan_file.h"
 
 void palpate::fuzz::plan(const std::uint8_t* data, std::size_t size) {
   sweep::PlanFile plan;

@@ -7,7 +7,7 @@
 
 #include "fit/case_fits.h"
 #include "run_text.h"
-#include "scenario/starters.h"
+#include "scenario/schema.h"
 
 namespace palpate {
 namespace {

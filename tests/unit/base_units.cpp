@@ -8,7 +8,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "base/unit_factor.h"
 #include "base/units.h"
 
 namespace palpate {
@@ -212,6 +211,14 @@ TEST(Units, AFileMayBeInInches) {
   EXPECT_DOUBLE_EQ(metres_per("inch"), 0.0254);
   EXPECT_DOUBLE_EQ(metres_per("mm"), 0.001);
   EXPECT_THROW((void)metres_per("psi"), std::invalid_argument);
+}
+
+TEST(Units, AreKnownByWordsInTheSingularAndThePlural) {
+  for (const char* hours : {"hour", "Hours", "hr", "hrs"})
+    EXPECT_EQ(unit_word(hours)->factor.to_si(1.0), 3600.0) << hours;
+  EXPECT_STREQ(unit_word("kilopascals")->symbol, "kPa");
+  EXPECT_STREQ(unit_word("kilopascal")->symbol, "kPa");
+  for (const char* none : {"s", "ins", "pascalss"}) EXPECT_EQ(unit_word(none), nullptr) << none;
 }
 
 TEST(Units, DimensionsHaveNames) {

@@ -6,7 +6,6 @@
 #include "base/files.h"
 #include "program.h"
 #include "scenario/schema.h"
-#include "scenario/starters.h"
 #include "temporary_folder.h"
 
 namespace palpate::test {

@@ -9,7 +9,7 @@
 #include "every.h"
 #include "live/log.h"
 #include "live/loop.h"
-#include "run/contact_row.h"
+#include "run/pace.h"
 #include "scenario/words.h"
 #include "scene/first_touch.h"
 #include "scene_text.h"

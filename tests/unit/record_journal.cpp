@@ -189,17 +189,6 @@ TEST_F(JournalOnDisk, RowsOfSomebodyElseCountForNothing) {
                                      " belongs to another plan, chart or version and is ignored"});
 }
 
-TEST_F(JournalOnDisk, EarlierVersionsAreKnownAndNotRead) {
-  const std::string path = three();
-  write(path,
-        "palpate sweep rows 1\t" + identity + "\n0123456789abcdef\tid\t1\tcompleted\t\ta\t0\n");
-  const auto [numbers, file] = numbers_in(path);
-  EXPECT_TRUE(numbers.empty());
-  EXPECT_EQ(file.whose, Whose::earlier);
-  write(path, "case,variant\n0,a\n");
-  EXPECT_EQ(numbers_in(path).second.whose, Whose::unknown);
-}
-
 // A file that may not grow is a disk that is full.
 TEST_F(JournalOnDisk, AFullDiskKeepsWhatWasThere) {
   std::signal(SIGXFSZ, SIG_IGN);

@@ -1,9 +1,8 @@
 // What a run is said to take beside what it takes.
-#include "run/cost.h"
 
 #include <gtest/gtest.h>
 
-#include "base/processor_time.h"
+#include "base/stopwatch.h"
 #include "run/family.h"
 #include "scenario/family.h"
 

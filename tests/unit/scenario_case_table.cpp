@@ -73,9 +73,6 @@ TEST_F(Tables, AreCasesRowByRow) {
             (std::pair<std::string, std::string>{"tissue.young_modulus", "2.5e1 kPa"}));
   EXPECT_EQ(family.design.keys(),
             (Words{"tissue.young_modulus", "contact.friction", "tissue.material", "output.fits"}));
-  EXPECT_EQ(family.design.factors()[0].keys[0].unit, "kPa");
-  EXPECT_EQ(family.design.factors()[1].keys[0].unit, "");
-  EXPECT_EQ(family.design.factors()[2].keys[0].unit, std::nullopt);
   ASSERT_EQ(family.inputs.size(), 2U);
   EXPECT_EQ(family.inputs[1].name, "cases.csv");
 }

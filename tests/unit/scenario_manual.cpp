@@ -47,6 +47,7 @@ TEST(Manual, ShowsDefaultsRangesAndConditions) {
         "| `schema` | whole number = 1 | `1` | Version of this format. |",
         "| `rings` | `\"all\"` or whole number >= 1 and <= 1000 | `all` |",
         "Used only with `viscosity = \"nodal_drag\"`.",
+        "\nThe contact law. Used only by steps with a finger (indent, hold, retract, slide).\n",
         "## `tissue.mesh`, `kind = \"mirrored\"` (default)", "## `[[step]]`"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }

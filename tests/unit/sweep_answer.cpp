@@ -1,5 +1,5 @@
 // What the rows of a sweep say together.
-#include "sweep/answer.h"
+#include "sweep/merge.h"
 
 #include <gtest/gtest.h>
 

@@ -71,13 +71,6 @@ TEST_F(Journals, torn_and_corrupt_lines_are_counted) {
   EXPECT_EQ(SweepResults(plan_).warnings().size(), 2U);
 }
 
-TEST_F(Journals, rows_of_an_earlier_version_are_refused) {
-  write(root_ / "results/1-of-1_here_1_1.rows", "palpate sweep rows 1\t" + plan_.hash + "\n");
-  EXPECT_EQ(refusal([&] { (void)SweepResults(plan_); }),
-            "results/1-of-1_here_1_1.rows: holds rows of an earlier version of palpate, which this "
-            "one cannot read; use that version, or remove the file and run its cases again");
-}
-
 TEST_F(Journals, a_part_reads_no_file_of_other_parts) {
   keep({row(1)}, "2-of-3");
   keep({row(2)}, "3-of-3");

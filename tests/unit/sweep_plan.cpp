@@ -7,7 +7,6 @@
 
 #include "base/files.h"
 #include "base/text.h"
-#include "sweep/forecast.h"
 #include "sweep/row.h"
 #include "sweep_folder.h"
 

@@ -10,7 +10,7 @@
 #include "plot/palette.h"
 #include "record/csv.h"
 #include "svg_text.h"
-#include "sweep/labels.h"
+#include "sweep/columns.h"
 #include "temporary_folder.h"
 
 namespace palpate::sweep {

@@ -1,9 +1,9 @@
 // Swept words as numbers with a unit, numbers as ranges, words for a shell.
 #include <gtest/gtest.h>
 
-#include "base/shell_word.h"
+#include "base/text.h"
 #include "record/table.h"
-#include "sweep/plan_file.h"
+#include "sweep/plan.h"
 #include "sweep/slurm.h"
 
 namespace palpate::sweep {
