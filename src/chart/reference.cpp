@@ -30,6 +30,7 @@ constexpr int levels = 3;
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
 constexpr double tolerance_of_solid = 0.005;  // asks for all of its meshes
+constexpr double tolerance_of_surface = 0.01;  // asks for two
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
 enum class Part { whole, half, quarter };
@@ -273,6 +274,20 @@ class Refinement {
   Part part_ = Part::whole;
 };
 
+// The scene of a press at rest by `solid`, which says as much as `tolerance` asks for.
+scene::Scene solid_scene(scenario::Case one, const scenario::Family& family, double tolerance) {
+  Scenario& scenario = one.scenario;
+  if (stand_for_one(scenario.finger)) scenario.finger.spheres = 1;
+  if (!scenario::viscous_contact(scenario))
+    scenario.contact.viscosity = scenario::Contact::Viscosity::none;
+  scenario.contact.depth.reset();
+  scenario.solver = {};
+  scenario.solver.model = scenario::Model::solid;
+  scenario.solver.tolerance = tolerance;
+  scenario.output.keep_rows_only();
+  return run::build_scene(one, family);
+}
+
 void warn_of_error(Reference& reference) {
   if (reference.rows.empty()) return;
   const auto worst = std::max_element(
@@ -396,17 +411,8 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   scenario.contact.direction = asked.family.cases[of_case].scenario.contact.direction;
   if (moves) return in_motion(one, family, choice);
   refuse_slides_at_a_force(family, scenario);
-  const bool one_for_all = stand_for_one(scenario.finger);
-  if (one_for_all) scenario.finger.spheres = 1;
-  scenario.solver = {};
-  scenario.solver.model = scenario::Model::solid;
-  scenario.solver.tolerance = tolerance_of_solid;
-  scenario.contact.depth.reset();
-  if (!flows) scenario.contact.viscosity = scenario::Contact::Viscosity::none;
-  scenario.output.keep_rows_only();
   set_doing({"the solid on three meshes"});
-  const scene::Scene scene = run::build_scene(one, family);
-  const record::CaseRecord record = run::run_case(scene);
+  const record::CaseRecord record = run::run_case(solid_scene(one, family, tolerance_of_solid));
   Reference reference;
   if (record.outcome != record::Outcome::completed) {
     reference.diverged = record.reason;
@@ -428,11 +434,23 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   else
     reference.how += ", without inertia, whose estimated effect is " + percent_text(inertia);
   reference.warnings.push_back("`solid` on three meshes, extrapolated; " + reference.how);
-  if (one_for_all)
+  if (stand_for_one(scenario.finger))
     reference.warnings.emplace_back(
         "spheres by `calibration = \"force\"` stand for one, which is pressed");
   warn_of_error(reference);
   return reference;
+}
+
+run::SurfaceReference refer_surface(const Asked& asked, std::size_t of_case) {
+  const scenario::Case& one = asked.family.cases[of_case];
+  const bool moves = run::choose(one).expected.inertia >= one.scenario.solver.tolerance;
+  const auto* flat = std::get_if<scenario::HalfSpace>(&one.scenario.tissue.shape);
+  if (one.scenario.uniform() || flat != nullptr || moves) return {};
+  try {
+    return run::displaced_by_solid(solid_scene(one, asked.family, tolerance_of_surface));
+  } catch (const MeshError&) {
+    return {};
+  }
 }
 
 record::Table reference_table(const std::vector<std::pair<std::string, Reference>>& cases) {
