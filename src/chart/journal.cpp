@@ -189,9 +189,8 @@ run::SurfaceReference surface_of(const record::Table& table) {
   run::SurfaceReference surface;
   for (const std::vector<record::Cell>& row : table.rows) {
     const auto number = [&](std::size_t column) { return std::get<double>(row[column]); };
-    surface.pieces.push_back({{number(0), number(1), number(2)},
-                              {number(3), number(4), number(5)},
-                              number(6)});
+    surface.pieces.push_back(
+        {{number(0), number(1), number(2)}, {number(3), number(4), number(5)}, number(6)});
     surface.error = number(7);
   }
   return surface;

@@ -29,7 +29,7 @@ using scenario::Scenario;
 constexpr int levels = 3;
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
-constexpr double tolerance_of_solid = 0.005;  // asks for all of its meshes
+constexpr double tolerance_of_solid = 0.005;   // asks for all of its meshes
 constexpr double tolerance_of_surface = 0.01;  // asks for two
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
@@ -152,10 +152,9 @@ class Refinement {
     if (resolved_) cut(std::get<scenario::Cuboid>(case_.scenario.tissue.shape));
   }
 
-  // The scene of a level, counted from 0. `direction`: normals of resolved contact.
-  scene::Scene build(int level, scenario::Contact::Direction direction) {
+  // The scene of a level, counted from 0.
+  scene::Scene build(int level) {
     scenario::Case one = case_;
-    one.scenario.contact.direction = direction;
     mesh(one.scenario, level);
     shorten_steps(one.scenario, level);
     scene::Scene scene = run::build_scene(one, family_);
@@ -170,7 +169,6 @@ class Refinement {
   }
   [[nodiscard]] bool resolved() const { return resolved_; }
   [[nodiscard]] Part part() const { return part_; }
-  [[nodiscard]] const Scenario& scenario() const { return case_.scenario; }
   [[nodiscard]] const scene::Estimates& estimates() const { return found_; }
 
  private:
@@ -308,40 +306,25 @@ void say_how(const Refinement& refinement, Reference& reference) {
   how += ", backward differences with steps proportional to the cells";
   reference.warnings.push_back(how);
   warn_of_error(reference);
-  if (!refinement.resolved()) return;
-  const double depth = refinement.estimates().travel / refinement.scenario().finger.radius;
-  double turned = 0.0;
-  for (const ReferenceRow& row : reference.rows)
-    turned = std::max(turned, std::abs(row.by_sphere - 1.0));
-  reference.warnings.push_back(
-      "linear elasticity does not determine the direction of the pressure in a deep contact: it is "
-      "taken along the normals of the undeformed surface, and along those of the sphere the force "
-      "differs by up to " +
-      percent_text(turned) +
-      " (column sphere_over_surface; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");
 }
 
 // A press that moves.
 Reference in_motion(const scenario::Case& one, const scenario::Family& family,
                     const scene::Choice& choice) {
-  using Direction = scenario::Contact::Direction;
   Refinement refinement(one, family, choice);
   Reference reference;
   reference.moves = true;
   std::vector<double> spacings;
-  const auto run_level = [&](int level, Direction direction) {
-    const scene::Scene scene = refinement.build(level, direction);
+  const double factor = copies(refinement.part());
+  for (int level = 0; level < levels; ++level) {
+    const scene::Scene scene = refinement.build(level);
     set_doing({"level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
                std::to_string(scene.specimen->network.nodes()) + " nodes"});
-    record::CaseRecord record = run::run_case(scene);
-    if (record.outcome != record::Outcome::completed)
+    const record::CaseRecord record = run::run_case(scene);
+    if (record.outcome != record::Outcome::completed) {
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;
-    return record;
-  };
-  const Direction direction = one.scenario.contact.direction.value_or(Direction::surface);
-  const double factor = copies(refinement.part());
-  for (int level = 0; level < levels && !reference.diverged; ++level) {
-    const record::CaseRecord record = run_level(level, direction);
+      return reference;
+    }
     spacings.push_back(refinement.spacing(level));
     if (level == 0)
       for (const record::ContactRow& row : record.contact)
@@ -350,7 +333,6 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
     for (std::size_t i = 0; i < std::min(record.contact.size(), reference.rows.size()); ++i)
       reference.rows[i].forces.push_back(factor * record.contact[i].contact_force);
   }
-  if (reference.diverged) return reference;
   for (ReferenceRow& row : reference.rows) {
     const Extrapolated found = extrapolate(spacings, row.forces);
     row.force = found.value;
@@ -359,17 +341,6 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
                         refinement.estimates().travel;
     row.error = found.error + deep * std::abs(found.value);
     row.order = found.order;
-  }
-  if (refinement.resolved()) {
-    const record::CaseRecord turned =
-        run_level(0, direction == Direction::surface ? Direction::sphere : Direction::surface);
-    for (std::size_t i = 0; i < std::min(turned.contact.size(), reference.rows.size()); ++i) {
-      ReferenceRow& row = reference.rows[i];
-      const double other = factor * turned.contact[i].contact_force;
-      if (row.forces.front() <= 0.0 || other <= 0.0) continue;
-      row.by_sphere =
-          direction == Direction::surface ? other / row.forces.front() : row.forces.front() / other;
-    }
   }
   say_how(refinement, reference);
   return reference;
@@ -457,9 +428,9 @@ record::Table reference_table(const std::vector<std::pair<std::string, Reference
   std::size_t levels = 0;
   for (const auto& [name, reference] : cases)
     for (const ReferenceRow& row : reference.rows) levels = std::max(levels, row.forces.size());
-  record::Table table{{"case", "step", "time_s", "travel_mm", "slide_mm", "contact_force_N",
-                       "error_N", "order", "sphere_over_surface"},
-                      {}};
+  record::Table table{
+      {"case", "step", "time_s", "travel_mm", "slide_mm", "contact_force_N", "error_N", "order"},
+      {}};
   for (std::size_t i = 1; i <= levels; ++i)
     table.columns.push_back("level_" + std::to_string(i) + "_N");
   for (const auto& [name, reference] : cases)
@@ -468,7 +439,7 @@ record::Table reference_table(const std::vector<std::pair<std::string, Reference
       cells.emplace_back(name);
       for (const double number :
            {static_cast<double>(row.step), row.time, unit::mm.from_si(row.travel),
-            unit::mm.from_si(row.slide), row.force, row.error, row.order, row.by_sphere})
+            unit::mm.from_si(row.slide), row.force, row.error, row.order})
         cells.emplace_back(number);
       cells.insert(cells.end(), row.forces.begin(), row.forces.end());
       cells.resize(table.columns.size());

@@ -179,8 +179,8 @@ class Speaker {
 
   std::string text() const {
     std::string text = "## " + chart_.name + "\n\nReference: " + chart_.truth.sentence + ".\n\n" +
-                       within() + displaced() + "\n\n" + at_knee() + "\n\n" + real_time() + in_time() + front() +
-                       "\n" + rest();
+                       within() + displaced() + "\n\n" + at_knee() + "\n\n" + real_time() +
+                       in_time() + front() + "\n" + rest();
     return text;
   }
 
@@ -319,14 +319,14 @@ class Speaker {
 
   [[nodiscard]] std::string front() const {
     std::string text =
-        "The front, from cheap to accurate:\n\n| configuration | error | displaced surface | us per "
+        "The front, from cheap to accurate:\n\n| configuration | error | displaced surface | us "
+        "per "
         "ms | set-up |\n|---|---|---|---|---|\n";
     for (const std::size_t i : verdict_.front)
-      text += "| `" + name(i) + "`" + (verdict_.knee == i ? " (knee)" : "") + " | " + error(i) +
-              " | " +
-              (chart_.rows[i].surface_error ? percent(*chart_.rows[i].surface_error) : "-") +
-              " | " + rounded(verdict_.cost[i]) + " | " + rounded(median(chart_.rows[i].setups())) +
-              " s |\n";
+      text +=
+          "| `" + name(i) + "`" + (verdict_.knee == i ? " (knee)" : "") + " | " + error(i) + " | " +
+          (chart_.rows[i].surface_error ? percent(*chart_.rows[i].surface_error) : "-") + " | " +
+          rounded(verdict_.cost[i]) + " | " + rounded(median(chart_.rows[i].setups())) + " s |\n";
     return text;
   }
 

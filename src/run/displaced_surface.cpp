@@ -28,9 +28,9 @@ double difference(const Displaced& found, std::span<const DisplacedPiece> refere
     const geometry::Near near = tree.nearest(piece.place);
     Vec3 displacement = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i)
-      displacement += near.weights[static_cast<Eigen::Index>(i)] *
-                      found.displacement[as_index(
-                          found.rest.triangles[as_index(near.triangle)][i])];
+      displacement +=
+          near.weights[static_cast<Eigen::Index>(i)] *
+          found.displacement[as_index(found.rest.triangles[as_index(near.triangle)][i])];
     squares += piece.area * (displacement - piece.displacement).squaredNorm();
     area += piece.area;
     largest = std::max(largest, piece.displacement.norm());

@@ -119,7 +119,7 @@ class FingerPress {
   struct OuterSurface {
     std::vector<std::array<Vec3, 6>> faces;          // m
     std::vector<std::array<Vec3, 6>> displacements;  // m, of these
-    std::vector<std::array<double, 6>> lifts;  // m, of these along the face's undeformed normal
+    std::vector<std::array<double, 6>> lifts;    // m, of these along the face's undeformed normal
     std::vector<std::array<Vec3, 6>> tractions;  // Pa, on the tissue at these
     std::vector<Indenter> finger;
   };

@@ -41,7 +41,8 @@ void print_rows(const std::string& lead, const std::string& empty,
                 const std::vector<std::pair<std::string, std::string>>& rows) {
   std::vector<std::pair<std::string, std::string>> merged;
   for (const auto& [name, cells] : rows) {
-    const auto same = std::ranges::find(merged, cells, &std::pair<std::string, std::string>::second);
+    const auto same =
+        std::ranges::find(merged, cells, &std::pair<std::string, std::string>::second);
     if (same != merged.end())
       same->first += "; " + name;
     else

@@ -71,7 +71,8 @@ void blocks_table() {
     std::vector<std::pair<std::string, std::string>> rows;
     for (const auto& [model, volume] : model_traits) {
       const bool added = model == std::string("mass_spring") && volume == std::string("nodal");
-      auto& [name, cells] = rows.emplace_back(model + std::string(added ? ", nodal volume" : ""), "");
+      auto& [name, cells] =
+          rows.emplace_back(model + std::string(added ? ", nodal volume" : ""), "");
       for (const Mesh& mesh : meshes)
         cells += " " + percent(block_error(block, model, mesh.text, volume)) + " |";
     }
@@ -257,7 +258,8 @@ int main(int count, char** arguments) {
     if (count > 1) palpate::figure(arguments[1]);
     std::printf(
         "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes. The grey "
-        "band is that of linear elasticity. The force at rest of both\nkinds of springs comes from the "
+        "band is that of linear elasticity. The force at rest of both\nkinds of springs comes from "
+        "the "
         "same finite elements.\n");
   }
   if (wanted("bodies")) palpate::bodies_table();
