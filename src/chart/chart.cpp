@@ -12,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "chart/journal.h"
+#include "chart/reference.h"
 #include "integrate/modal.h"
 #include "run/choose.h"
 #include "run/family.h"
@@ -89,7 +90,9 @@ class Measurer {
  private:
   void begin(std::size_t i) {
     const scenario::Case& one = asked_.family.cases[i];
-    CaseChart chart{one.name, one.scenario.solver.tolerance, {}, 0.0, {}};
+    CaseChart chart;
+    chart.name = one.name;
+    chart.tolerance = one.scenario.solver.tolerance;
     told_({one.name + ": reference"});
     const std::string name = "truth_" + std::to_string(i);
     const auto known = journal_.references().find(name);
@@ -101,6 +104,15 @@ class Measurer {
       journal_.add_reference(name, history_table(chart.truth));
     }
     chart.reference_error = own_error(one.scenario, chart.truth.moments).greatest;
+    const std::string surface = "surface_" + std::to_string(i);
+    if (const auto kept = journal_.references().find(surface);
+        kept != journal_.references().end()) {
+      chart.surface = surface_of(kept->second);
+    } else {
+      chart.surface = refer_surface(asked_, i);
+      StopScope::end_if_stopped();
+      journal_.add_reference(surface, surface_table(chart.surface));
+    }
     for (const Variant& variant : design(asked_, i, shapes_)) {
       StopScope::end_if_stopped();
       Measurement fresh;
@@ -239,7 +251,7 @@ class Measurer {
     one.tetrahedra = static_cast<int>(scene.specimen->mesh.tetrahedra.size());
   }
 
-  void compare(const CaseChart& chart, const scene::Scene& scene, const record::CaseRecord& record,
+  void compare(const CaseChart& chart, scene::Scene& scene, const record::CaseRecord& record,
                Measurement& one) {
     one.simulated = record::end_time(record);
     if (record.outcome == record::Outcome::diverged) {
@@ -251,6 +263,13 @@ class Measurer {
     one.status = Status::measured;
     const History got = history(scene.scenario, record);
     one.error = deviation(scene.scenario, got, chart.truth.moments);
+    if (scene.specimen && !chart.surface.pieces.empty()) {
+      scene.scenario.output.tissue = true;  // in a run of its own, which is not timed
+      record::CaseRecord again;
+      const StopScope scope(longest_);
+      run::run_programme(scene, again);
+      one.surface_error = run::surface_error(again, chart.surface.pieces);
+    }
     if (one.variant.group != "integrator x time step") return;
     const History& exact = in_time(one);
     if (exact.empty()) return;

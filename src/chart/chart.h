@@ -9,6 +9,7 @@
 #include "chart/design.h"
 #include "chart/history.h"
 #include "chart/truth.h"
+#include "run/displaced_surface.h"
 
 namespace palpate::chart {
 
@@ -45,6 +46,7 @@ struct Measurement {
   std::optional<Deviation> error;       // from the reference
   std::optional<Deviation> time_error;  // from exact_in_time(), on the same mesh
   double time_floor = 0.0;              // error of exact_in_time(), relative
+  std::optional<double> surface_error;  // run::surface_error()
   std::vector<Timing> timings;
 
   // One number per timing: run time per simulated time without the set-up, us per ms; set-up (build
@@ -59,6 +61,7 @@ struct CaseChart {
   double tolerance = 0.05;
   Truth truth;
   double reference_error = 0.0;   // largest error of the truth over its moments, relative
+  run::SurfaceReference surface;  // without pieces: no configuration has a surface_error
   std::vector<Measurement> rows;  // in the order of design()
 };
 

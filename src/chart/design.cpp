@@ -110,6 +110,39 @@ Settings one_step(double step_ms, double interval) {
   return settings;
 }
 
+// The settings that leave to palpate what it chooses by itself: model, coupling, mesh and steps.
+Settings left_open(const scenario::Scenario& scenario) {
+  const scenario::Solver& solver = scenario.solver;
+  Settings open;
+  if (solver.model) open.emplace_back("solver.model=auto");
+  if (solver.integrator) open.emplace_back("solver.integrator=auto");
+  if (solver.time_step) open.emplace_back("solver.time_step=auto");
+  if (solver.substeps) open.emplace_back("solver.substeps=auto");
+  if (solver.rings) open.emplace_back("solver.rings=all");
+  const scenario::Mesh& mesh = scenario.tissue.mesh;
+  if (!std::holds_alternative<scenario::MeshFile>(mesh) &&
+      !std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape) &&
+      !refinement(mesh).refine)
+    open.push_back(std::string("tissue.mesh={kind='") +
+                   std::visit([](const auto& kind) { return kind.word.word; },
+                              scenario::mesh_left_open(scenario)) +
+                   "',refine=true}");
+  if (!scenario.uniform() && scenario.contact.coupling != contact::Coupling::consistent) {
+    open.emplace_back("contact.coupling=consistent");
+    // Only `consistent` takes the viscosity of the tissue into the contact by default.
+    if (scenario.contact.viscosity == scenario::Contact::Viscosity::none)
+      open.emplace_back("contact.viscosity=none");
+  }
+  return open;
+}
+
+// Case `of_case` with these.
+scenario::Case opened(const Asked& asked, std::size_t of_case) {
+  Settings all = asked.settings;
+  for (const std::string& one : left_open(asked.family.cases[of_case].scenario)) all.push_back(one);
+  return scenario::parse_case(asked.text, asked.path, all, of_case).cases.front();
+}
+
 class Designer {
  public:
   Designer(const Asked& asked, std::size_t of_case, scene::SpecimenShapes& shapes)
@@ -276,37 +309,6 @@ class Designer {
 };
 
 }  // namespace
-
-Settings left_open(const scenario::Scenario& scenario) {
-  const scenario::Solver& solver = scenario.solver;
-  Settings open;
-  if (solver.model) open.emplace_back("solver.model=auto");
-  if (solver.integrator) open.emplace_back("solver.integrator=auto");
-  if (solver.time_step) open.emplace_back("solver.time_step=auto");
-  if (solver.substeps) open.emplace_back("solver.substeps=auto");
-  if (solver.rings) open.emplace_back("solver.rings=all");
-  const scenario::Mesh& mesh = scenario.tissue.mesh;
-  if (!std::holds_alternative<scenario::MeshFile>(mesh) &&
-      !std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape) &&
-      !refinement(mesh).refine)
-    open.push_back(std::string("tissue.mesh={kind='") +
-                   std::visit([](const auto& kind) { return kind.word.word; },
-                              scenario::mesh_left_open(scenario)) +
-                   "',refine=true}");
-  if (!scenario.uniform() && scenario.contact.coupling != contact::Coupling::consistent) {
-    open.emplace_back("contact.coupling=consistent");
-    // Only `consistent` takes the viscosity of the tissue into the contact by default.
-    if (scenario.contact.viscosity == scenario::Contact::Viscosity::none)
-      open.emplace_back("contact.viscosity=none");
-  }
-  return open;
-}
-
-scenario::Case opened(const Asked& asked, std::size_t of_case) {
-  Settings all = asked.settings;
-  for (const std::string& one : left_open(asked.family.cases[of_case].scenario)) all.push_back(one);
-  return scenario::parse_case(asked.text, asked.path, all, of_case).cases.front();
-}
 
 void refuse_forces(const scenario::Family& family, const std::string& sentence) {
   const std::vector<scenario::Step>& steps = family.base.steps;

@@ -55,12 +55,6 @@ void refuse_forces(const scenario::Family& family, const std::string& sentence);
 [[nodiscard]] scenario::Family with_settings(const Asked& asked, std::size_t of_case,
                                              const std::vector<std::string>& settings);
 
-// The settings that leave to palpate what it chooses by itself: model, coupling, mesh and steps.
-[[nodiscard]] std::vector<std::string> left_open(const scenario::Scenario& scenario);
-
-// Case `of_case` with these.
-[[nodiscard]] scenario::Case opened(const Asked& asked, std::size_t of_case);
-
 struct Variant {
   std::size_t of_case = 0;
   std::string group;                  // first column of the table above

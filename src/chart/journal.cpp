@@ -36,6 +36,7 @@ void for_each_column(One& one, const See& see) {
   };
   deviation("error", one.error);
   deviation("time_error", one.time_error);
+  if (one.surface_error) see("surface_error", *one.surface_error);
   if (one.timings.empty()) return;
   see("build_s", one.timings.back().build);
   see("first_row_s", one.timings.back().first_row);
@@ -62,6 +63,7 @@ std::optional<Measurement> measurement_of(const record::Table& row) {
   const auto has = [&](const char* column) { return row.find(column) >= 0; };
   if (has("greatest_error")) one.error.emplace();
   if (has("greatest_time_error")) one.time_error.emplace();
+  if (has("surface_error")) one.surface_error.emplace();
   if (has("whole_s")) one.timings.emplace_back();
   bool good = true;
   const auto read = [&](const std::string& column, auto& value) {
@@ -169,6 +171,29 @@ Truth truth_of(const record::Table& table) {
     truth.sentence = std::get<std::string>(row[5]);
   }
   return truth;
+}
+
+record::Table surface_table(const run::SurfaceReference& surface) {
+  record::Table table{{"x_m", "y_m", "z_m", "displacement_x_m", "displacement_y_m",
+                       "displacement_z_m", "area_m2", "own_error"},
+                      {}};
+  for (const run::DisplacedPiece& piece : surface.pieces) {
+    auto& row = table.rows.emplace_back(piece.place.begin(), piece.place.end());
+    row.insert(row.end(), piece.displacement.begin(), piece.displacement.end());
+    row.insert(row.end(), {piece.area, surface.error});
+  }
+  return table;
+}
+
+run::SurfaceReference surface_of(const record::Table& table) {
+  run::SurfaceReference surface;
+  for (const std::vector<record::Cell>& row : table.rows) {
+    const auto number = [&](std::size_t column) { return std::get<double>(row[column]); };
+    surface.pieces.push_back(
+        {{number(0), number(1), number(2)}, {number(3), number(4), number(5)}, number(6)});
+    surface.error = number(7);
+  }
+  return surface;
 }
 
 }  // namespace palpate::chart

@@ -52,8 +52,10 @@ class Journal {
   std::optional<record::Journal> file_;
 };
 
-// A truth as a table, and back.
+// References as tables, and back.
 [[nodiscard]] record::Table history_table(const Truth& truth);
 [[nodiscard]] Truth truth_of(const record::Table& table);
+[[nodiscard]] record::Table surface_table(const run::SurfaceReference& surface);
+[[nodiscard]] run::SurfaceReference surface_of(const record::Table& table);
 
 }  // namespace palpate::chart

@@ -29,7 +29,8 @@ using scenario::Scenario;
 constexpr int levels = 3;
 constexpr int coarsest = 4;            // cells per contact radius under the finger, first level
 constexpr double first_nodes = 700.0;  // first level of a moving body if contact is not resolved
-constexpr double tolerance_of_solid = 0.005;  // asks for all of its meshes
+constexpr double tolerance_of_solid = 0.005;   // asks for all of its meshes
+constexpr double tolerance_of_surface = 0.01;  // asks for two
 
 // The part of a symmetric body that is computed: all, the half y > 0 or the quarter x, y > 0.
 enum class Part { whole, half, quarter };
@@ -151,10 +152,9 @@ class Refinement {
     if (resolved_) cut(std::get<scenario::Cuboid>(case_.scenario.tissue.shape));
   }
 
-  // The scene of a level, counted from 0. `direction`: normals of resolved contact.
-  scene::Scene build(int level, scenario::Contact::Direction direction) {
+  // The scene of a level, counted from 0.
+  scene::Scene build(int level) {
     scenario::Case one = case_;
-    one.scenario.contact.direction = direction;
     mesh(one.scenario, level);
     shorten_steps(one.scenario, level);
     scene::Scene scene = run::build_scene(one, family_);
@@ -169,7 +169,6 @@ class Refinement {
   }
   [[nodiscard]] bool resolved() const { return resolved_; }
   [[nodiscard]] Part part() const { return part_; }
-  [[nodiscard]] const Scenario& scenario() const { return case_.scenario; }
   [[nodiscard]] const scene::Estimates& estimates() const { return found_; }
 
  private:
@@ -273,6 +272,20 @@ class Refinement {
   Part part_ = Part::whole;
 };
 
+// The scene of a press at rest by `solid`, which says as much as `tolerance` asks for.
+scene::Scene solid_scene(scenario::Case one, const scenario::Family& family, double tolerance) {
+  Scenario& scenario = one.scenario;
+  if (stand_for_one(scenario.finger)) scenario.finger.spheres = 1;
+  if (!scenario::viscous_contact(scenario))
+    scenario.contact.viscosity = scenario::Contact::Viscosity::none;
+  scenario.contact.depth.reset();
+  scenario.solver = {};
+  scenario.solver.model = scenario::Model::solid;
+  scenario.solver.tolerance = tolerance;
+  scenario.output.keep_rows_only();
+  return run::build_scene(one, family);
+}
+
 void warn_of_error(Reference& reference) {
   if (reference.rows.empty()) return;
   const auto worst = std::max_element(
@@ -293,40 +306,25 @@ void say_how(const Refinement& refinement, Reference& reference) {
   how += ", backward differences with steps proportional to the cells";
   reference.warnings.push_back(how);
   warn_of_error(reference);
-  if (!refinement.resolved()) return;
-  const double depth = refinement.estimates().travel / refinement.scenario().finger.radius;
-  double turned = 0.0;
-  for (const ReferenceRow& row : reference.rows)
-    turned = std::max(turned, std::abs(row.by_sphere - 1.0));
-  reference.warnings.push_back(
-      "linear elasticity does not determine the direction of the pressure in a deep contact: it is "
-      "taken along the normals of the undeformed surface, and along those of the sphere the force "
-      "differs by up to " +
-      percent_text(turned) +
-      " (column sphere_over_surface; of the order of h/R/2 = " + percent_text(0.5 * depth) + ")");
 }
 
 // A press that moves.
 Reference in_motion(const scenario::Case& one, const scenario::Family& family,
                     const scene::Choice& choice) {
-  using Direction = scenario::Contact::Direction;
   Refinement refinement(one, family, choice);
   Reference reference;
   reference.moves = true;
   std::vector<double> spacings;
-  const auto run_level = [&](int level, Direction direction) {
-    const scene::Scene scene = refinement.build(level, direction);
+  const double factor = copies(refinement.part());
+  for (int level = 0; level < levels; ++level) {
+    const scene::Scene scene = refinement.build(level);
     set_doing({"level " + std::to_string(level + 1) + " of " + std::to_string(levels) + ": " +
                std::to_string(scene.specimen->network.nodes()) + " nodes"});
-    record::CaseRecord record = run::run_case(scene);
-    if (record.outcome != record::Outcome::completed)
+    const record::CaseRecord record = run::run_case(scene);
+    if (record.outcome != record::Outcome::completed) {
       reference.diverged = "level " + std::to_string(level + 1) + ": " + record.reason;
-    return record;
-  };
-  const Direction direction = one.scenario.contact.direction.value_or(Direction::surface);
-  const double factor = copies(refinement.part());
-  for (int level = 0; level < levels && !reference.diverged; ++level) {
-    const record::CaseRecord record = run_level(level, direction);
+      return reference;
+    }
     spacings.push_back(refinement.spacing(level));
     if (level == 0)
       for (const record::ContactRow& row : record.contact)
@@ -335,7 +333,6 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
     for (std::size_t i = 0; i < std::min(record.contact.size(), reference.rows.size()); ++i)
       reference.rows[i].forces.push_back(factor * record.contact[i].contact_force);
   }
-  if (reference.diverged) return reference;
   for (ReferenceRow& row : reference.rows) {
     const Extrapolated found = extrapolate(spacings, row.forces);
     row.force = found.value;
@@ -344,17 +341,6 @@ Reference in_motion(const scenario::Case& one, const scenario::Family& family,
                         refinement.estimates().travel;
     row.error = found.error + deep * std::abs(found.value);
     row.order = found.order;
-  }
-  if (refinement.resolved()) {
-    const record::CaseRecord turned =
-        run_level(0, direction == Direction::surface ? Direction::sphere : Direction::surface);
-    for (std::size_t i = 0; i < std::min(turned.contact.size(), reference.rows.size()); ++i) {
-      ReferenceRow& row = reference.rows[i];
-      const double other = factor * turned.contact[i].contact_force;
-      if (row.forces.front() <= 0.0 || other <= 0.0) continue;
-      row.by_sphere =
-          direction == Direction::surface ? other / row.forces.front() : row.forces.front() / other;
-    }
   }
   say_how(refinement, reference);
   return reference;
@@ -396,17 +382,8 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   scenario.contact.direction = asked.family.cases[of_case].scenario.contact.direction;
   if (moves) return in_motion(one, family, choice);
   refuse_slides_at_a_force(family, scenario);
-  const bool one_for_all = stand_for_one(scenario.finger);
-  if (one_for_all) scenario.finger.spheres = 1;
-  scenario.solver = {};
-  scenario.solver.model = scenario::Model::solid;
-  scenario.solver.tolerance = tolerance_of_solid;
-  scenario.contact.depth.reset();
-  if (!flows) scenario.contact.viscosity = scenario::Contact::Viscosity::none;
-  scenario.output.keep_rows_only();
   set_doing({"the solid on three meshes"});
-  const scene::Scene scene = run::build_scene(one, family);
-  const record::CaseRecord record = run::run_case(scene);
+  const record::CaseRecord record = run::run_case(solid_scene(one, family, tolerance_of_solid));
   Reference reference;
   if (record.outcome != record::Outcome::completed) {
     reference.diverged = record.reason;
@@ -428,20 +405,32 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   else
     reference.how += ", without inertia, whose estimated effect is " + percent_text(inertia);
   reference.warnings.push_back("`solid` on three meshes, extrapolated; " + reference.how);
-  if (one_for_all)
+  if (stand_for_one(scenario.finger))
     reference.warnings.emplace_back(
         "spheres by `calibration = \"force\"` stand for one, which is pressed");
   warn_of_error(reference);
   return reference;
 }
 
+run::SurfaceReference refer_surface(const Asked& asked, std::size_t of_case) {
+  const scenario::Case& one = asked.family.cases[of_case];
+  const bool moves = run::choose(one).expected.inertia >= one.scenario.solver.tolerance;
+  const auto* flat = std::get_if<scenario::HalfSpace>(&one.scenario.tissue.shape);
+  if (one.scenario.uniform() || flat != nullptr || moves) return {};
+  try {
+    return run::displaced_by_solid(solid_scene(one, asked.family, tolerance_of_surface));
+  } catch (const MeshError&) {
+    return {};
+  }
+}
+
 record::Table reference_table(const std::vector<std::pair<std::string, Reference>>& cases) {
   std::size_t levels = 0;
   for (const auto& [name, reference] : cases)
     for (const ReferenceRow& row : reference.rows) levels = std::max(levels, row.forces.size());
-  record::Table table{{"case", "step", "time_s", "travel_mm", "slide_mm", "contact_force_N",
-                       "error_N", "order", "sphere_over_surface"},
-                      {}};
+  record::Table table{
+      {"case", "step", "time_s", "travel_mm", "slide_mm", "contact_force_N", "error_N", "order"},
+      {}};
   for (std::size_t i = 1; i <= levels; ++i)
     table.columns.push_back("level_" + std::to_string(i) + "_N");
   for (const auto& [name, reference] : cases)
@@ -450,7 +439,7 @@ record::Table reference_table(const std::vector<std::pair<std::string, Reference
       cells.emplace_back(name);
       for (const double number :
            {static_cast<double>(row.step), row.time, unit::mm.from_si(row.travel),
-            unit::mm.from_si(row.slide), row.force, row.error, row.order, row.by_sphere})
+            unit::mm.from_si(row.slide), row.force, row.error, row.order})
         cells.emplace_back(number);
       cells.insert(cells.end(), row.forces.begin(), row.forces.end());
       cells.resize(table.columns.size());

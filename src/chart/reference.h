@@ -9,6 +9,7 @@
 #include "chart/design.h"
 #include "chart/history.h"
 #include "record/table.h"
+#include "run/displaced_surface.h"
 
 namespace palpate::chart {
 
@@ -21,7 +22,6 @@ struct ReferenceRow {
   double force = 0.0;               // N, extrapolated
   double error = 0.0;               // N, bound of the change by further refinement
   double order = 0.0;               // observed order of convergence; 0: none
-  double by_sphere = 1.0;           // force along the sphere's normals over the surface's
 };
 
 struct Reference {
@@ -53,8 +53,13 @@ struct MostRows {
 // [extrapolation], [solid_force]
 [[nodiscard]] Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most = {});
 
-// One row per moment: case, step, time_s, travel_mm, slide_mm, contact_force_N, error_N, order,
-// sphere_over_surface (1 if contact is not resolved), and the forces of the levels, level_1_N...
+// The displaced surface of a press at rest by `solid` on two meshes. No pieces for uniform tests
+// and half-spaces, where the estimated effect of inertia reaches the tolerance, and where `solid`
+// finds no mesh or no equilibrium. Throws InputError and Stopped.
+[[nodiscard]] run::SurfaceReference refer_surface(const Asked& asked, std::size_t of_case);
+
+// One row per moment: case, step, time_s, travel_mm, slide_mm, contact_force_N, error_N, order, and
+// the forces of the levels, level_1_N...
 [[nodiscard]] record::Table reference_table(
     const std::vector<std::pair<std::string, Reference>>& cases);
 

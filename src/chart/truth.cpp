@@ -160,22 +160,14 @@ class Finder {
     const Reference reference = refer(asked_, case_, {most_moments, most_moments_in_time});
     if (reference.diverged) throw MeshError("the reference diverged: " + *reference.diverged);
     Truth truth{"refined", "", {}};
-    double turned = 0.0;
-    double peak = 0.0;
-    for (const ReferenceRow& row : reference.rows) {
+    for (const ReferenceRow& row : reference.rows)
       truth.moments.push_back({row.step, row.time, row.force, row.error});
-      peak = std::max(peak, row.force);
-      turned = std::max(turned, std::abs(row.by_sphere - 1.0) * row.force);
-    }
     truth.sentence =
         (reference.moves
              ? "coupled springs on three meshes, extrapolated (`palpate reference`); forces" +
                    depth_text(found)
              : "`solid` on three meshes, extrapolated (`palpate reference`); " + reference.how) +
         "; its own error is about " + percent_text(own_error(scenario_, truth.moments).greatest);
-    if (turned > 0.0 && peak > 0.0)
-      truth.sentence += ", and the choice of the pressure's direction at this depth " +
-                        percent_text(turned / peak) + ", which is not included";
     return truth;
   }
 

@@ -137,8 +137,15 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
       "In words",
       page::paragraphs({sentences.begin() + static_cast<std::ptrdiff_t>(first), sentences.end()}),
       page::Page::Shown::folded);
-  std::vector<std::string> results{
-      "configuration", "claimed_error", "cost_us_per_ms", "total_s", "pareto", "knee", "auto"};
+  const bool displaced = std::ranges::any_of(
+      charts, [](const chart::CaseChart& one) { return !one.surface.pieces.empty(); });
+  std::vector<std::string> results{"configuration",
+                                   "claimed_error",
+                                   "cost_us_per_ms",
+                                   displaced ? "surface_error" : "total_s",
+                                   "pareto",
+                                   "knee",
+                                   "auto"};
   if (several)
     results.insert(results.begin(), "case");
   else

@@ -14,25 +14,13 @@ enum class Coupling { one_way, series, consistent, resolved };
 
 // Whether the mesh represents the tissue at the contact, with its viscosity and inertia.
 [[nodiscard]] constexpr bool mesh_is_tissue(Coupling coupling) {
-  switch (coupling) {
-    case Coupling::series:
-    case Coupling::resolved: return true;
-    case Coupling::one_way:
-    case Coupling::consistent: break;
-  }
-  return false;
+  return coupling == Coupling::series || coupling == Coupling::resolved;
 }
 
 // Whether the contact force may act on a single node. This requires that the coupling averages the
 // displacement of all nodes that it loads, or uses no displacement.
 [[nodiscard]] constexpr bool presses_one_node(Coupling coupling) {
-  switch (coupling) {
-    case Coupling::one_way:
-    case Coupling::series: return true;
-    case Coupling::consistent:
-    case Coupling::resolved: break;
-  }
-  return false;
+  return coupling == Coupling::one_way || coupling == Coupling::series;
 }
 
 }  // namespace palpate::contact

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 namespace palpate::contact {
+namespace {
 
+// The displacement of a surface point, m.
 Vec3 displacement_at(const geometry::Surface& surface, const geometry::SurfacePoint& point,
                      std::span<const Vec3> displacement) {
   if (displacement.empty()) return Vec3::Zero();
@@ -13,6 +15,8 @@ Vec3 displacement_at(const geometry::Surface& surface, const geometry::SurfacePo
          point.weights[1] * displacement[as_index(b)] +
          point.weights[2] * displacement[as_index(c)];
 }
+
+}  // namespace
 
 Detector::Detector(const geometry::SmoothSurface& surface)
     : surface_(&surface), tree_(surface.surface()), moved_(surface.surface().vertices) {}

@@ -39,9 +39,4 @@ class Detector {
   std::vector<geometry::Near> near_;
 };
 
-// The displacement of a surface point, m.
-[[nodiscard]] Vec3 displacement_at(const geometry::Surface& surface,
-                                   const geometry::SurfacePoint& point,
-                                   std::span<const Vec3> displacement);
-
 }  // namespace palpate::contact

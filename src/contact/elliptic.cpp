@@ -61,37 +61,7 @@ double axis_ratio(double r) {
 
 }  // namespace
 
-double EllipticLaw::force(double depth) const {
-  // F = (2 pi / 3) E* a h / K                                 docs/theory.md [ellipse_force]
-  return hertz::force(depth, force_radius, modulus);
-}
-
-double EllipticLaw::stiffness(double depth) const {
-  return hertz::stiffness(depth, force_radius, modulus);
-}
-
-double EllipticLaw::depth(double force) const { return hertz::depth(force, force_radius, modulus); }
-
-SemiAxes EllipticLaw::semi_axes(double depth) const {
-  const double along = hertz::contact_radius(depth, along_radius);
-  return {.along = along, .across = axis_ratio * along};
-}
-
-double EllipticLaw::peak_pressure(double depth) const {
-  if (depth <= 0.0) return 0.0;
-  const auto [along, across] = semi_axes(depth);
-  return 1.5 * force(depth) / (std::numbers::pi * along * across);
-}
-
-double EllipticLaw::pressure(double x, double y, double depth) const {
-  if (depth <= 0.0) return 0.0;
-  const auto [along, across] = semi_axes(depth);
-  const double inside = 1.0 - x * x / (along * along) - y * y / (across * across);
-  return inside > 0.0 ? peak_pressure(depth) * std::sqrt(inside) : 0.0;
-}
-
-std::optional<EllipticLaw> elliptic_law(double modulus, double sphere_radius, double kappa_1,
-                                        double kappa_2) {
+std::optional<EllipticLaw> elliptic_law(double sphere_radius, double kappa_1, double kappa_2) {
   const double least = 1.0 / sphere_radius + std::min(kappa_1, kappa_2);     // 2 A
   const double greatest = 1.0 / sphere_radius + std::max(kappa_1, kappa_2);  // 2 B
   const bool finite = std::isfinite(kappa_1 + kappa_2) && std::isfinite(greatest / least);
@@ -99,11 +69,10 @@ std::optional<EllipticLaw> elliptic_law(double modulus, double sphere_radius, do
   const double q = axis_ratio(greatest / least);
   const auto [mean, t, slope] = integrals(q);
   // a^2 / h = (1/2 + t) / A = (1 + 2 t) / (2 A)                     docs/theory.md [ellipse]
+  // F = (2 pi / 3) E* a h / K                                  docs/theory.md [ellipse_force]
   const double along_radius = (1.0 + 2.0 * t) / least;
-  return EllipticLaw{.modulus = modulus,
-                     .force_radius = mean * mean * along_radius,
-                     .along_radius = along_radius,
-                     .axis_ratio = q};
+  return EllipticLaw{
+      .force_radius = mean * mean * along_radius, .along_radius = along_radius, .axis_ratio = q};
 }
 
 bool nearly_conforming(double sphere_radius, double kappa_1, double kappa_2) {

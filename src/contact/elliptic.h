@@ -5,36 +5,22 @@
 
 namespace palpate::contact {
 
-// Semi-axes of the contact ellipse, m.
-struct SemiAxes {
-  double along = 0.0;   // the longer one, in the direction of least curvature
-  double across = 0.0;  // in the direction of greatest curvature
-};
-
-// The force law for given curvatures and modulus, evaluated with + - * / and sqrt only (`depth`:
-// cbrt). Depths in m; all results are 0 at a depth of 0 or less.
+// The contact of a sphere by the two principal curvatures: its force is that of a sphere of
+// `force_radius` on a flat, docs/theory.md [ellipse_force].
 struct EllipticLaw {
-  double modulus = 0.0;       // E*, Pa
-  double force_radius = 0.0;  // m: the sphere on a flat with the same force
-  double along_radius = 0.0;  // m: along^2 / depth
-  double axis_ratio = 1.0;    // across / along, in (0, 1]
-
-  [[nodiscard]] double force(double depth) const;      // N
-  [[nodiscard]] double stiffness(double depth) const;  // dF/dh, N/m
-  [[nodiscard]] double depth(double force) const;      // the inverse of `force`
-  [[nodiscard]] SemiAxes semi_axes(double depth) const;
-  [[nodiscard]] double peak_pressure(double depth) const;  // Pa
-  // At `x` along the longer axis and `y` across it (m, from the centre), Pa; 0 outside the ellipse.
-  [[nodiscard]] double pressure(double x, double y, double depth) const;
+  double force_radius = 0.0;  // m
+  double along_radius = 0.0;  // m: square of the longer semi-axis, along the least curvature, over
+                              // the depth
+  double axis_ratio = 1.0;    // of the shorter semi-axis to the longer, in (0, 1]
 };
 
-// From E* (Pa), the sphere's radius R_1 (m) and the body's principal curvatures (1/m, convex
+// From the sphere's radius R_1 (m) and the body's principal curvatures (1/m, convex
 // positive, in any order). Empty if the surfaces conform, 1/R_1 + kappa <= 0 in a direction, or a
 // number is not finite. Accurate to rounding until 1/R_1 + kappa in one direction is 1e-30 of that
 // in the other. As it goes to 0 the ellipse becomes a line and the force grows without bound,
 // although the half-space is no longer valid; see nearly_conforming(). docs/theory.md [axes]
-[[nodiscard]] std::optional<EllipticLaw> elliptic_law(double modulus, double sphere_radius,
-                                                      double kappa_1, double kappa_2);
+[[nodiscard]] std::optional<EllipticLaw> elliptic_law(double sphere_radius, double kappa_1,
+                                                      double kappa_2);
 
 // Whether the body is so hollow in a direction (kappa < -0.5 / R_1) that the contact is wide
 // compared with the sphere and Hertz's law is inaccurate.

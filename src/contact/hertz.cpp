@@ -46,11 +46,5 @@ double peak_pressure(double force, double contact_radius) {
   return 1.5 * force / (std::numbers::pi * contact_radius * contact_radius);
 }
 
-double pressure(double distance, double force, double contact_radius) {
-  if (distance >= contact_radius) return 0.0;
-  const double ratio = distance / contact_radius;
-  return peak_pressure(force, contact_radius) * std::sqrt(1.0 - ratio * ratio);
-}
-
 }  // namespace hertz
 }  // namespace palpate::contact

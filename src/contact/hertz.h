@@ -40,9 +40,6 @@ namespace hertz {
 // p_0 = 3 F / (2 pi a^2), Pa, compression positive; 0 without contact.
 [[nodiscard]] double peak_pressure(double force, double contact_radius);
 
-// p(r) = p_0 sqrt(1 - r^2/a^2), Pa; 0 outside the contact.
-[[nodiscard]] double pressure(double distance, double force, double contact_radius);
-
 }  // namespace hertz
 
 // The surface displacement (m) at the distance `r` (m) from the centre of a contact of radius `a`

@@ -21,8 +21,7 @@ std::array<double, 2> ContactLaw::semi_axes(double depth) const {
 std::optional<ContactLaw> contact_law(CurvatureLaw kind, const SphereLaw& sphere,
                                       const geometry::Curvature& curvature,
                                       const LayerContact* layer) {
-  const auto exact =
-      elliptic_law(sphere.modulus, sphere.radius, curvature.kappa_1, curvature.kappa_2);
+  const auto exact = elliptic_law(sphere.radius, curvature.kappa_1, curvature.kappa_2);
   if (!exact) return std::nullopt;
   ContactLaw law;
   law.mean_curvature = 0.5 * (curvature.kappa_1 + curvature.kappa_2);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 
 #include "base/numerics.h"
 #include "contact/hertz.h"
@@ -114,8 +114,6 @@ LayerLaw::Factor LayerLaw::factor(double chi) const {
 
 double LayerLaw::force_factor(double chi) const { return factor(chi).value; }
 
-double LayerLaw::force_slope(double chi) const { return factor(chi).slope; }
-
 double LayerLaw::stiffness_factor(double chi) const {
   // F ~ h^(3/2) f(chi) and chi ~ h^(1/2): dF/dh = 2 E* sqrt(R h) (f + chi/3 df/dchi)
   const Factor f = factor(chi);
@@ -138,22 +136,6 @@ PressureProfile LayerLaw::pressure(double chi) const {
   return profile;
 }
 
-std::optional<double> LayerLaw::chi(double load) const {
-  if (load <= 0.0) return 0.0;
-  if (!(load <= last_chi() * last_chi() * last_chi() * force_factor(last_chi())))
-    return std::nullopt;
-  // If f >= 1, chi is at most load^(1/3), hence below the larger of load^(1/4) and load^(1/2), and
-  // Newton's method converges from above on the convex chi^3 f(chi) - load. Over softer layers chi
-  // may be larger and the function not convex.
-  const double root = std::sqrt(load);
-  const double above = std::max(root, std::sqrt(root));
-  return numerics::root(std::min(last_chi(), above), {0.0, last_chi()}, [&](double chi) {
-    const Factor f = factor(chi);
-    return numerics::Tangent{chi * chi * chi * f.value - load,
-                             chi * chi * (3.0 * f.value + chi * f.slope)};
-  });
-}
-
 double LayerContact::last_depth() const {
   const double radius_there = law.last_chi() * thickness;
   return radius_there * radius_there / radius;
@@ -169,24 +151,9 @@ double LayerContact::stiffness(double depth) const {
          law.stiffness_factor(layer_chi(depth, radius, thickness));
 }
 
-std::optional<double> LayerContact::depth(double force) const {
-  // h = (chi H)^2 / R
-  const double unit = 4.0 / 3.0 * modulus * thickness * thickness * thickness / radius;
-  const auto chi = law.chi(force / unit);
-  if (!chi) return std::nullopt;
-  return *chi * *chi * thickness * thickness / radius;
-}
-
 double LayerContact::contact_radius(double depth) const {
   return hertz::contact_radius(depth, radius) *
          law.radius_factor(layer_chi(depth, radius, thickness));
-}
-
-double LayerContact::pressure(double distance, double depth) const {
-  if (depth <= 0.0) return 0.0;
-  const double a = contact_radius(depth);
-  return force(depth) / (std::numbers::pi * a * a) *
-         law.pressure(layer_chi(depth, radius, thickness)).at(distance / a);
 }
 
 }  // namespace palpate::contact

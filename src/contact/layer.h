@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "contact/layer_integral.h"
@@ -44,14 +43,9 @@ class LayerLaw {
   [[nodiscard]] double last_chi() const { return scale_.last; }
 
   [[nodiscard]] double force_factor(double chi) const;      // f = F / F_Hertz(h)
-  [[nodiscard]] double force_slope(double chi) const;       // df/dchi
   [[nodiscard]] double stiffness_factor(double chi) const;  // dF/dh / (2 E* sqrt(R h))
   [[nodiscard]] double radius_factor(double chi) const;     // a / sqrt(R h)
   [[nodiscard]] PressureProfile pressure(double chi) const;
-
-  // The inverse: the chi with chi^3 f(chi) = load, where `load` is F divided by the force of a
-  // Hertz contact with chi = 1, 4/3 E* H^3 / R. Empty beyond last_chi(), 0 for no load.
-  [[nodiscard]] std::optional<double> chi(double load) const;
 
  private:
   friend class LayerTable;
@@ -76,20 +70,18 @@ class LayerLaw {
   std::array<Series, PressureProfile::terms> pressure_;
 };
 
-// The law for given sizes. Depths in m; all results are 0 at a depth of 0 or less. Beyond
-// last_depth() they are NaN, and forces have no depth.
+// The law for given sizes. Depths in m; all results are 0 at a depth of 0 or less, and NaN
+// beyond last_depth().
 struct LayerContact {
   double radius;     // R, m
   double modulus;    // E*, Pa
   double thickness;  // H, m
   LayerLaw law;
 
-  [[nodiscard]] double last_depth() const;                             // m, where chi = last_chi()
-  [[nodiscard]] double force(double depth) const;                      // N
-  [[nodiscard]] double stiffness(double depth) const;                  // dF/dh, N/m
-  [[nodiscard]] std::optional<double> depth(double force) const;       // the inverse of `force`
-  [[nodiscard]] double contact_radius(double depth) const;             // m
-  [[nodiscard]] double pressure(double distance, double depth) const;  // Pa, at r from the centre
+  [[nodiscard]] double last_depth() const;                  // m, where chi = last_chi()
+  [[nodiscard]] double force(double depth) const;           // N
+  [[nodiscard]] double stiffness(double depth) const;       // dF/dh, N/m
+  [[nodiscard]] double contact_radius(double depth) const;  // m
 };
 
 }  // namespace palpate::contact

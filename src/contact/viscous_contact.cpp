@@ -195,10 +195,6 @@ ViscousContact::ViscousContact(const Relaxation& relaxation, std::size_t rings)
 
 double ViscousContact::step(double time_step, double depth, double elastic_force) {
   if (law_.elastic()) {
-    edge_ = depth <= 0.0     ? ContactEdge::apart
-            : depth > depth_ ? ContactEdge::growing
-            : depth < depth_ ? ContactEdge::shrinking
-                             : ContactEdge::resting;
     depth_ = depth;
     return force_ = depth > 0.0 ? elastic_force : 0.0;
   }
@@ -251,13 +247,9 @@ void ViscousContact::shrink() {
     for (std::size_t k = 0; k < drive_.size(); ++k)
       outer_branches_[k] = drive_[k] + pressed_.value(k);
     release_top();
-    if (pressed_.empty()) {
-      edge_ = ContactEdge::apart;
-      return;
-    }
+    if (pressed_.empty()) return;
     push = push_of_top();
   } while (push < 0.0);
-  edge_ = ContactEdge::shrinking;
   // The edge is where q = 0 between the outermost pressed ring and the ring last released.
   const double part = push / (push - outer_push);
   const double inner_level = pressed_.level();
@@ -273,21 +265,18 @@ void ViscousContact::shrink() {
 }
 
 void ViscousContact::grow(double elastic_force) {
-  edge_ = pressed_.empty() ? ContactEdge::apart : ContactEdge::resting;
   while (!free_.empty() && place_of_free() < depth_) join_top();
   if (pressed_.empty()) return;
   const double inner_level = pressed_.level();
   const double place = inner_level + sum(edge_modes_);
   if (depth_ <= place) return;
   if (free_.empty()) {
-    edge_ = ContactEdge::growing;
     std::fill(edge_modes_.begin(), edge_modes_.end(), 0.0);
     std::fill(branches_.begin(), branches_.end(), 0.0);
     lay_edge(depth_, elastic_force);
     return;
   }
   // The edge is where the free surface, linear between two rings, meets the finger.
-  edge_ = ContactEdge::returning;
   const double part = (depth_ - place) / (place_of_free() - place);
   const double level = std::lerp(inner_level, free_.level(), part);
   for (std::size_t m = 0; m < edge_modes_.size(); ++m)

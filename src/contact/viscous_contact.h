@@ -99,15 +99,6 @@ class FadingStack {
   std::vector<double> age_before_;  // [rate]: until the start of the step
 };
 
-// Motion of the contact's edge in a step.
-enum class ContactEdge {
-  apart,      // there is no contact
-  growing,    // onto surface that was never touched: loading (Lee and Radok)
-  resting,    // the edge did not move
-  shrinking,  // unloading (Ting)
-  returning,  // onto surface that it had left and that is still recovering
-};
-
 // The force of a press h(t) on tissue with the relaxed elastic force phi(h). phi may be any
 // function of the depth with phi(0) = 0 and an increasing slope, such as Hertz's or a layer's, if
 // each contact area contains those of smaller depths. Loading follows Lee and Radok's integral,
@@ -143,7 +134,6 @@ class ViscousContact {
   // m: the depth of the surface in the middle of the contact: that of the finger, or the impression
   // that is left after a press; 0 on a surface at rest.
   [[nodiscard]] double surface_depth() const;
-  [[nodiscard]] ContactEdge edge() const { return edge_; }
 
  private:
   void pass_time(double time_step, double depth);
@@ -171,7 +161,6 @@ class ViscousContact {
 
   std::vector<double> branches_, outer_branches_, modes_, row_;  // buffers for one ring
 
-  ContactEdge edge_ = ContactEdge::apart;
   double force_ = 0.0;
 };
 

@@ -156,6 +156,9 @@ struct Touch {
   [[nodiscard]] double pressed() const;  // N, sum of the magnitudes of the normal forces
 };
 
+// Whether the spheres of the finger represent one sphere, with `calibration = "force"`.
+[[nodiscard]] bool presses_as_one(const scene::Scene& scene);
+
 // Friction of all contacts after the finger has moved by `move` (m). The stretch grows by the
 // tangential part of `move`, and Cattaneo and Mindlin's partial slip gives the drag, at most mu F;
 // with `contact.slip = "coulomb"` the drag is mu F along `move`. `beyond` renews the contacts'

@@ -690,17 +690,14 @@ void Series::find_surface_displacement(const KeptList<SphereContact>& contacts,
     for (Eigen::Index j = 0; j < count; ++j) {
       const SphereContact& own = contacts[as_index(i)];
       const SphereContact& pressed = contacts[as_index(j)];
-      PairTable& kept = influence.kept;
-      kept.look(own.patch.normal, pressed.patch.normal);
       double sum = 0.0;
       for (std::size_t k = 0; k < own.load.vertices.size(); ++k) {
-        const int vertex = own.load.vertices[k];
+        const int at = part->node_of(own.load.vertices[k]);
         double moved = 0.0;
         for (std::size_t l = 0; l < pressed.load.vertices.size(); ++l) {
-          const int loaded = pressed.load.vertices[l];
-          moved += pressed.load.shares[l] * kept.at(vertex, loaded, [&] {
-            return influence.block(part->node_of(vertex), part->node_of(loaded));
-          });
+          const Eigen::Matrix3d block =
+              influence.block(at, part->node_of(pressed.load.vertices[l]));
+          moved += pressed.load.shares[l] * own.patch.normal.dot(block * pressed.patch.normal);
         }
         sum += own.load.shares[k] * moved;
       }

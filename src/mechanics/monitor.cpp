@@ -29,16 +29,9 @@ std::optional<std::string> EnergyMonitor::step(const integrate::State& before,
   const double work = integrate::wide::work(as_index(after.displacement.size()), load_before.data(),
                                             load_after.data(), before.displacement.data(),
                                             after.displacement.data());
-  const double lost = body_->dissipated(before, after);
-  return account(work, lost, body_->stored(after) + body_->kinetic(after));
-}
-
-std::optional<std::string> EnergyMonitor::account(double work, double lost, double held) {
-  work_ += work;
-  lost_ += lost;
-  held_ = held;
+  take_over(work_ + work, lost_ + body_->dissipated(before, after),
+            body_->stored(after) + body_->kinetic(after));
   if (!std::isfinite(held_) || !std::isfinite(work_)) return not_finite;
-  greatest_ = std::max(greatest_, given_ + work_);
   // Near the stability limit the energy of the highest mode oscillates by the factor
   // 1 / (1 - (omega dt / 2)^2), 5 at 0.9 of the limit; a factor above 10 is a real growth.
   constexpr double swing = 10.0;

@@ -40,10 +40,6 @@ class EnergyMonitor {
                                                 const integrate::Vector& load_before,
                                                 const integrate::Vector& load_after);
 
-  // The same for a step whose energies (J) are known: work of the loads, dissipated energy, and
-  // stored plus kinetic energy after the step.
-  [[nodiscard]] std::optional<std::string> account(double work, double lost, double held);
-
   // Replaces the sums by those of a method that adds them up itself (modal steps), J: all work, all
   // dissipated energy, and stored plus kinetic energy now.
   void take_over(double work, double lost, double held);

@@ -25,6 +25,8 @@ double hat_potential(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 0.5 * d * (std::asinh(t_c / d) - std::asinh(t_b / d));
 }
 
+using Eigen::Index;
+
 }  // namespace
 
 // Computed before the first step, because asinh() may differ between processors in its last bit.
@@ -81,90 +83,13 @@ std::optional<PressedNode> SurfaceNodes::facing(int vertex, const Ball& ball) co
   return node;
 }
 
-NodalTouches::NodalTouches(const scene::Scene& scene)
-    : scene_(&scene),
-      surface_(&*scene.specimen->surface),
-      tree_(surface_->surface()),
-      stars_(surface_->surface(), surface_->neighbours(), {}) {}
-
-// Hertz's law at the pressed place, for estimates; the nodal forces do not use it.
-contact::ContactLaw NodalTouches::law_for_estimates(const geometry::SurfacePoint& at) const {
-  const contact::SphereLaw sphere{scene_->finger.sphere_radius, scene_->finger.sphere_modulus};
-  const auto corners = stars_.at_corners(surface_->surface(), at.triangle);
-  const auto found = geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
-  if (found.known())
-    if (const auto law =
-            contact::contact_law(scene_->scenario.contact.law, sphere, found.curvature))
-      return *law;
-  return *contact::contact_law(scene_->scenario.contact.law, sphere, {});
-}
-
-// Adds the contact of one sphere, from the forces on its nodes; nothing if all are zero.
-void NodalTouches::fill(int sphere, const Ball& ball, const std::vector<PushedNode>& nodes,
-                        const Touch& before, Touch& touch) const {
-  SphereContact& contact = touch.contacts.add();
-  contact.sphere = sphere;
-  Vec3 sum = Vec3::Zero();
-  Vec3 centre = Vec3::Zero();
-  double total = 0.0;
-  double area = 0.0;
-  for (const PushedNode& one : nodes) {
-    if (one.outer_surface.sphere != sphere) continue;
-    contact.nodal.vertices.push_back(one.outer_surface.vertex);
-    contact.nodal.gap.push_back(std::max(0.0, one.left));
-    if (one.force <= 0.0) continue;
-    contact.load.vertices.push_back(one.outer_surface.vertex);
-    contact.load.shares.push_back(one.force);
-    contact.nodal.push.push_back(one.force * one.push);
-    sum += one.force * one.push;
-    centre += one.force * one.outer_surface.place;
-    contact.nodal.peak_pressure =
-        std::max(contact.nodal.peak_pressure, one.force / one.outer_surface.area);
-    total += one.force;
-    area += one.outer_surface.area;
-  }
-  if (total <= 0.0) {
-    touch.contacts.erase(touch.contacts.size() - 1);
-    return;
-  }
-  contact.force = sum.norm();
-  for (double& share : contact.load.shares) share /= total;
-  for (Vec3& push : contact.nodal.push) push /= contact.force;
-  const auto closest_point = surface_->closest_point(ball.centre, tree_.nearest(ball.centre));
-  contact.patch.at = closest_point.at;
-  contact.patch.position = centre / total;
-  contact.patch.normal = -sum / contact.force;
-  contact.patch.axis = contact.patch.normal.unitOrthogonal();
-  contact.patch.a = contact.patch.b = std::sqrt(area / std::numbers::pi);
-  contact.approach = contact.depth = ball.radius - closest_point.height;
-  contact.law = law_for_estimates(closest_point.at);
-  for (const SphereContact& old : before.contacts)
-    if (old.sphere == sphere) contact.stretch = old.stretch;
-}
-
-void NodalTouches::meet(const Vec3& finger, const std::vector<Ball>& balls,
-                        const std::vector<PushedNode>& nodes, Touch& touch) const {
-  Touch next = touch;
-  next.finger = finger;
-  next.contacts.clear();
-  for (std::size_t i = 0; i < balls.size(); ++i)
-    fill(static_cast<int>(i), balls[i], nodes, touch, next);
-  rub(*scene_, finger - touch.finger, next);
-  touch = std::move(next);
-}
-
-namespace {
-
-using Eigen::Index;
-
-}  // namespace
-
 ResolvedContact::ResolvedContact(const MovingPart& part)
     : part_(&part),
       scene_(part.scene),
       surface_(&*scene_->specimen->surface),
       outer_surface_(*surface_),
-      touches_(*scene_),
+      tree_(surface_->surface()),
+      stars_(surface_->surface(), surface_->neighbours(), {}),
       finger_compliance_(scene_->finger.compliance_share / scene_->finger.whole.modulus) {
   for (const Vec3& centre : scene_->finger.centres)
     balls_.push_back({centre, scene_->finger.sphere_radius});
@@ -342,12 +267,72 @@ std::optional<std::string> ResolvedContact::press(Influence& influence) {
          "`tissue.mesh`, or a smaller `solver.time_step`";
 }
 
+// Hertz's law at the pressed place, for estimates; the nodal forces do not use it.
+contact::ContactLaw ResolvedContact::law_for_estimates(const geometry::SurfacePoint& at) const {
+  const contact::SphereLaw sphere{scene_->finger.sphere_radius, scene_->finger.sphere_modulus};
+  const auto corners = stars_.at_corners(surface_->surface(), at.triangle);
+  const auto found = geometry::between(corners, {at.weights[0], at.weights[1], at.weights[2]});
+  if (found.known())
+    if (const auto law =
+            contact::contact_law(scene_->scenario.contact.law, sphere, found.curvature))
+      return *law;
+  return *contact::contact_law(scene_->scenario.contact.law, sphere, {});
+}
+
+// Adds the contact of one sphere, from the forces on its nodes; nothing if all are zero.
+void ResolvedContact::fill(int sphere, const Touch& before, Touch& touch) const {
+  const Ball& ball = balls_[as_index(sphere)];
+  SphereContact& contact = touch.contacts.add();
+  contact.sphere = sphere;
+  Vec3 sum = Vec3::Zero();
+  Vec3 centre = Vec3::Zero();
+  double total = 0.0;
+  double area = 0.0;
+  for (const Candidate& one : candidates_) {
+    if (one.outer_surface.sphere != sphere) continue;
+    contact.nodal.vertices.push_back(one.outer_surface.vertex);
+    contact.nodal.gap.push_back(std::max(0.0, one.left));
+    if (one.force <= 0.0) continue;
+    contact.load.vertices.push_back(one.outer_surface.vertex);
+    contact.load.shares.push_back(one.force);
+    contact.nodal.push.push_back(one.force * one.push);
+    sum += one.force * one.push;
+    centre += one.force * one.outer_surface.place;
+    contact.nodal.peak_pressure =
+        std::max(contact.nodal.peak_pressure, one.force / one.outer_surface.area);
+    total += one.force;
+    area += one.outer_surface.area;
+  }
+  if (total <= 0.0) {
+    touch.contacts.erase(touch.contacts.size() - 1);
+    return;
+  }
+  contact.force = sum.norm();
+  for (double& share : contact.load.shares) share /= total;
+  for (Vec3& push : contact.nodal.push) push /= contact.force;
+  const auto closest_point = surface_->closest_point(ball.centre, tree_.nearest(ball.centre));
+  contact.patch.at = closest_point.at;
+  contact.patch.position = centre / total;
+  contact.patch.normal = -sum / contact.force;
+  contact.patch.axis = contact.patch.normal.unitOrthogonal();
+  contact.patch.a = contact.patch.b = std::sqrt(area / std::numbers::pi);
+  contact.approach = contact.depth = ball.radius - closest_point.height;
+  contact.law = law_for_estimates(closest_point.at);
+  for (const SphereContact& old : before.contacts)
+    if (old.sphere == sphere) contact.stretch = old.stretch;
+}
+
 std::optional<std::string> ResolvedContact::find(const Vec3& finger,
                                                  const integrate::Vector& displacement,
                                                  Influence& influence, Touch& touch) {
   look(finger, displacement, touch);
   if (auto wrong = press(influence)) return wrong;
-  touches_.meet(finger, balls_, {candidates_.begin(), candidates_.end()}, touch);
+  Touch next = touch;
+  next.contacts.clear();
+  for (std::size_t i = 0; i < balls_.size(); ++i) fill(static_cast<int>(i), touch, next);
+  next.finger = finger;
+  rub(*scene_, finger - touch.finger, next);
+  touch = std::move(next);
   return std::nullopt;
 }
 

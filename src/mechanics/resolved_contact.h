@@ -51,35 +51,6 @@ class SurfaceNodes {
   std::vector<Triangle> triangles_;
 };
 
-// A node that a sphere may push.
-struct PushedNode {
-  PressedNode outer_surface;
-  Vec3 push = Vec3::Zero();  // unit, direction of the force on the node
-  double left = 0.0;         // m, gap with contact forces
-  double force = 0.0;        // N
-};
-
-class NodalTouches {
- public:
-  // The scene, which has a specimen, must outlive this.
-  explicit NodalTouches(const scene::Scene& scene);
-
-  // Replaces the contacts of `touch` by one per sphere that pushes nodes, with the finger at
-  // `finger` (m) and its friction.
-  void meet(const Vec3& finger, const std::vector<Ball>& balls,
-            const std::vector<PushedNode>& nodes, Touch& touch) const;
-
- private:
-  void fill(int sphere, const Ball& ball, const std::vector<PushedNode>& nodes, const Touch& before,
-            Touch& touch) const;
-  [[nodiscard]] contact::ContactLaw law_for_estimates(const geometry::SurfacePoint& at) const;
-
-  const scene::Scene* scene_;
-  const geometry::SmoothSurface* surface_;
-  geometry::BoxTree tree_;
-  geometry::CurvatureStars stars_;
-};
-
 // Every node of the surface near a sphere has a gap g_j >= 0 and a force f_j >= 0, one of which is
 // zero, docs/theory.md [unilateral]. They are related by the compliance of the mesh and, for an
 // elastic finger, of a half-space. Friction is not part of this problem; it acts on the resultant.
@@ -96,11 +67,15 @@ class ResolvedContact {
 
  private:
   // A node that may be in contact.
-  struct Candidate : PushedNode {
+  struct Candidate {
+    PressedNode outer_surface;
     int node = -1;              // of the moving mesh; -1: does not move
+    Vec3 push = Vec3::Zero();   // unit, direction of the force on the node
     Vec3 base = Vec3::Zero();   // m, displacement without contact forces
     Vec3 moved = Vec3::Zero();  // m, displacement with contact forces
     double gap = 0.0;           // m, without contact forces
+    double left = 0.0;          // m, gap with contact forces
+    double force = 0.0;         // N
     bool sought = false;        // the force is an unknown of the current problem
   };
 
@@ -112,12 +87,15 @@ class ResolvedContact {
   [[nodiscard]] double finger_surface_displacement(const Candidate& at,
                                                    const Candidate& pressed) const;
   [[nodiscard]] bool sphere_normals() const;
+  [[nodiscard]] contact::ContactLaw law_for_estimates(const geometry::SurfacePoint& at) const;
+  void fill(int sphere, const Touch& before, Touch& touch) const;
 
   const MovingPart* part_;
   const scene::Scene* scene_;
   const geometry::SmoothSurface* surface_;
   SurfaceNodes outer_surface_;
-  NodalTouches touches_;
+  geometry::BoxTree tree_;
+  geometry::CurvatureStars stars_;
   double finger_compliance_ = 0.0;  // 1/Pa, lambda_1
   std::vector<Ball> balls_;
   std::vector<Candidate> candidates_;

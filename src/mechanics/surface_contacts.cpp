@@ -93,11 +93,6 @@ std::optional<std::string> SurfaceCurvature::find(const geometry::SurfacePoint& 
   return std::nullopt;
 }
 
-bool presses_as_one(const scene::Scene& scene) {
-  return scene.finger.centres.size() > 1 &&
-         scene.scenario.finger.calibration == finger::Calibration::force;
-}
-
 std::string hollow_text(double kappa_2) {
   return "the tissue is hollow and conforms to the finger (curvature " + rounded_text(kappa_2) +
          " 1/m): Hertz does not hold there; take a smaller `finger.radius`, or press elsewhere "

@@ -44,9 +44,6 @@ class SurfaceCurvature {
   geometry::Surface shape_;                   // the deformed surface
 };
 
-// Whether the spheres of the finger represent one sphere, with `calibration = "force"`.
-[[nodiscard]] bool presses_as_one(const scene::Scene& scene);
-
 // Sets the first `count` rows and columns to 0; allocates only if the matrix is smaller.
 void clear_corner(Eigen::MatrixXd& matrix, Eigen::Index count);
 

@@ -25,8 +25,7 @@ void find_shear(const scene::Scene& scene, const Touch& touch, BodySurfaceDispla
                 SphereContact& contact) {
   contact::Patch patch = contact.patch;
   double share = 1.0;
-  if (scene.finger.centres.size() > 1 && contact.force > 0.0 &&
-      scene.scenario.finger.calibration == finger::Calibration::force) {
+  if (presses_as_one(scene) && contact.force > 0.0) {
     const double wider = std::pow(static_cast<double>(scene.finger.centres.size()), 1.0 / 6.0);
     patch.a *= wider;
     patch.b *= wider;
@@ -36,6 +35,11 @@ void find_shear(const scene::Scene& scene, const Touch& touch, BodySurfaceDispla
 }
 
 }  // namespace
+
+bool presses_as_one(const scene::Scene& scene) {
+  return scene.finger.centres.size() > 1 &&
+         scene.scenario.finger.calibration == finger::Calibration::force;
+}
 
 void NodalContact::renew() {
   push.clear();

@@ -274,13 +274,17 @@ geometry::TetMesh SolidPress::corners() const {
   return mesh;
 }
 
-record::PressureMap SolidPress::map(const mechanics::Touch& touch) {
+solid::FingerPress::OuterSurface SolidPress::surface(std::size_t mesh,
+                                                     const mechanics::Touch& touch) {
+  if (touch.contacts.empty()) return {};
   Vec3 place = touch.finger - body().first_touch;
   place.z() = 0.0;
-  solid::FingerPress::OuterSurface outer_surface;
-  if (!touch.contacts.empty()) outer_surface = presses_.back()->surface_at(touch.travel, place);
+  return presses_[mesh]->surface_at(touch.travel, place);
+}
+
+record::PressureMap SolidPress::map(const mechanics::Touch& touch) {
   const double force = touch.contacts.empty() ? 0.0 : touch.normal_force();
-  return draw_map(outer_surface, now_.contact_radius, force, touch.finger);
+  return draw_map(surface(meshes() - 1, touch), now_.contact_radius, force, touch.finger);
 }
 
 }  // namespace palpate::run

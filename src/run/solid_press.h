@@ -40,6 +40,12 @@ class SolidPress {
   // whole.
   [[nodiscard]] geometry::TetMesh corners() const;
 
+  [[nodiscard]] std::size_t meshes() const { return presses_.size(); }
+  // The displaced surface under a touch of find(), on a mesh counted from the coarsest; empty
+  // without contact.
+  [[nodiscard]] solid::FingerPress::OuterSurface surface(std::size_t mesh,
+                                                         const mechanics::Touch& touch);
+
   // On the finest mesh.
   [[nodiscard]] record::PressureMap map(const mechanics::Touch& touch);
 

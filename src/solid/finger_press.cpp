@@ -383,21 +383,24 @@ FingerPress::OuterSurface FingerPress::surface_at(double travel, const Vec3& pla
     for (std::size_t i = 0; i < 6; ++i) places[i] = body.mesh.nodes[as_index(face.nodes[i])];
     const Vec3 normal = (places[1] - places[0]).cross(places[2] - places[0]).normalized();
     std::array<double, 6> lifts{};
+    std::array<Vec3, 6> changes;
     for (std::size_t i = 0; i < 6; ++i) {
-      const Vec3 change = moved->segment<3>(3 * face.nodes[i]);
-      lifts[i] = normal.dot(change);
-      places[i] += change;
+      changes[i] = moved->segment<3>(3 * face.nodes[i]);
+      lifts[i] = normal.dot(changes[i]);
+      places[i] += changes[i];
     }
     for (int copy = 0; copy < 4; ++copy) {
       const std::array<bool, 2> across{(copy & 1) != 0, (copy & 2) != 0};
       if ((across[0] && !body.mirrored[0]) || (across[1] && !body.mirrored[1])) continue;
       std::array<Vec3, 6>& image = outer_surface.faces.emplace_back();
+      std::array<Vec3, 6>& its_changes = outer_surface.displacements.emplace_back();
       std::array<double, 6>& its_lifts = outer_surface.lifts.emplace_back();
       std::array<Vec3, 6>& its_tractions = outer_surface.tractions.emplace_back();
       for (std::size_t i = 0; i < 6; ++i) {
         const std::size_t from = across[0] != across[1] ? turned_over[i] : i;
         const int node = face.nodes[from];
         image[i] = places[from];
+        its_changes[i] = changes[from];
         its_lifts[i] = lifts[from];
         its_tractions[i] = tractions[as_index(node)];
         for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -405,6 +408,7 @@ FingerPress::OuterSurface FingerPress::surface_at(double travel, const Vec3& pla
           const double mirror = mirror_[along];
           if (across[axis]) {
             image[i][along] = 2.0 * mirror - image[i][along];
+            its_changes[i][along] *= -1.0;
             its_tractions[i][along] *= -1.0;
           }
           if (body.mirrored[axis] && body.mesh.nodes[as_index(node)][along] == mirror)

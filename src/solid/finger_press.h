@@ -118,7 +118,8 @@ class FingerPress {
   // the mirrors make: the nodes of its faces, in the order of solid::Face. With the finger there.
   // Empty where no equilibrium is found.
   struct OuterSurface {
-    std::vector<std::array<Vec3, 6>> faces;      // m
+    std::vector<std::array<Vec3, 6>> faces;          // m
+    std::vector<std::array<Vec3, 6>> displacements;  // m, of these
     std::vector<std::array<double, 6>> lifts;    // m, of these along the face's undeformed normal
     std::vector<std::array<Vec3, 6>> tractions;  // Pa, on the tissue at these
     std::vector<Indenter> finger;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdint>
 #include <stdexcept>
 
 #include "base/index.h"
@@ -17,21 +16,23 @@
 #include "mechanics/stepper.h"
 #include "run/refined_mesh.h"
 #include "scene/first_touch.h"
+#include "tissue/stable_step.h"
 
 namespace palpate::stability {
 
 using integrate::Vector;
 
+namespace {
+
+// Pseudo-random numbers, 0 for held degrees of freedom.
 Vector scattered(const integrate::Body& body) {
-  Vector vector = Vector::Zero(body.mass().size());
-  std::uint64_t state = 1;  // of a linear congruential generator
-  for (Eigen::Index d = 0; d < vector.size(); ++d) {
-    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-    if (body.held()[as_index(d)] == 0)
-      vector[d] = static_cast<double>(state >> 11) / 9007199254740992.0 - 0.5;
-  }
+  Vector vector = tissue::scattered(body.mass().size());
+  for (Eigen::Index d = 0; d < vector.size(); ++d)
+    if (body.held()[as_index(d)] != 0) vector[d] = 0.0;
   return vector;
 }
+
+}  // namespace
 
 BodyMode highest_mode(const integrate::Body& body, const ContactSpring* contact) {
   Vector scale = body.mass().cwiseSqrt().cwiseInverse();
@@ -70,25 +71,6 @@ BodyMode lowest_mode(const integrate::Body& body) {
   return {1.0 / std::sqrt(found.value), found.vector.cwiseQuotient(root_mass)};
 }
 
-using integrate::Vector;
-
-void LaggedDifference::step(integrate::State& state, const Vector& load) {
-  const double dt = time_step_;
-  if (state.force.size() == 0) body_->look(state);
-  damping_ = body_->drag().cwiseProduct(state.velocity);
-  if (body_->has_dashpots()) {
-    body_->dashpot_force(state.displacement, state.velocity, dashpots_);
-    damping_ += dashpots_;
-  }
-  state.velocity += dt * (load - state.force - damping_).cwiseQuotient(body_->mass());
-  const auto held = body_->held();
-  for (std::size_t d = 0; d < held.size(); ++d)
-    if (held[d] != 0) state.velocity[static_cast<Eigen::Index>(d)] = 0.0;
-  state.displacement += dt * state.velocity;
-  state.time += dt;
-  body_->arrive(state, {dt, integrate::MemoryRule::exact});
-}
-
 Moved move(const FreeMotion& motion, double time_step, double enough) {
   const scene::SpringBody& body = *motion.body;
   integrate::State state;
@@ -104,9 +86,8 @@ Moved move(const FreeMotion& motion, double time_step, double enough) {
   const Vector stroke = body.mass().cwiseProduct(shape) / (time_step * time_step);
   const Vector nothing = Vector::Zero(shape.size());
 
-  LaggedDifference by_lag(body, time_step);
   mechanics::Stepper stepper(*motion.scene, body);
-  if (!motion.lagged) stepper.set_step(time_step);
+  stepper.set_step(time_step);
 
   Moved moved;
   std::array<double, 4> greatest{};
@@ -119,11 +100,9 @@ Moved move(const FreeMotion& motion, double time_step, double enough) {
       load -= motion.contact->stiffness * motion.contact->weights.dot(state.displacement) *
               motion.contact->weights;
     load_after = i == 0 ? stroke : nothing;
-    if (motion.lagged) {
-      by_lag.step(state, load);
-    } else if (stepper.step(state, load, load_after, integrate::MemoryRule::exact)) {
-      moved.ending =
-          std::isfinite(state.displacement.sum()) ? Ending::cannot_step : Ending::not_finite;
+    if (stepper.step(state, load, load_after, integrate::MemoryRule::exact)) {
+      moved.failure = Failure::non_finite;
+      moved.cannot_step = std::isfinite(state.displacement.sum());
       return moved;
     }
     double energy = body.stored(state) + body.kinetic(state);
@@ -134,12 +113,12 @@ Moved move(const FreeMotion& motion, double time_step, double enough) {
     moved.steps = i + 1;
     moved.after = energy;
     if (!std::isfinite(energy)) {
-      moved.ending = Ending::not_finite;
+      moved.failure = Failure::non_finite;
       return moved;
     }
     if (i == 0) first = energy;
     if (energy > enough * first) {
-      moved.ending = Ending::grows;
+      moved.failure = Failure::divergence;
       return moved;
     }
     double& most = greatest[as_index(4 * i / motion.steps)];
@@ -149,7 +128,7 @@ Moved move(const FreeMotion& motion, double time_step, double enough) {
   moved.after = greatest[3];
   // The energy of a motion that has decayed to rounding errors is not compared.
   const bool dead = moved.after <= 1e-24 * std::max(first, greatest[0]);
-  if (!dead && moved.after > motion.growth * moved.before) moved.ending = Ending::grows;
+  if (!dead && moved.after > motion.growth * moved.before) moved.failure = Failure::divergence;
   return moved;
 }
 
@@ -160,8 +139,7 @@ void choose_length(FreeMotion& motion, double damping_ratio) {
   // at e = 0.0025. With damping that lags or leads, d = 2 e for every zeta.
   constexpr double most = 40000.0;
   motion.steps = 400;
-  if (!motion.lagged && motion.centred)
-    motion.steps = static_cast<int>(std::min(400.0 + 10.0 * damping_ratio, most));
+  if (motion.centred) motion.steps = static_cast<int>(std::min(400.0 + 10.0 * damping_ratio, most));
   motion.growth = damping_ratio > 0.05 ? 1.05 : 2.0;
 }
 
@@ -366,64 +344,121 @@ double growth_beyond(double omega_step) {
 
 namespace {
 
-Failure failure_of(Ending ending) {
-  switch (ending) {
-    case Ending::bounded: break;
-    case Ending::grows: return Failure::divergence;
-    case Ending::not_finite: return Failure::non_finite;
-    case Ending::cannot_step: return Failure::non_finite;
-  }
-  return Failure::none;
-}
-
 constexpr double resolution = 1e-3;  // relative, of a bisected limit
 constexpr double farthest = 1000.0;  // times 2 / omega: longest step for methods without a limit
 
 }  // namespace
 
-Measured measure_limit(ProbedBody& probed, const Method& method, const tissue::ViscousLaw& law,
+LimitRow measure_limit(ProbedBody& probed, const Method& method, const tissue::ViscousLaw& law,
                        const ContactSpring* contact) {
   const scene::Specimen& specimen = *probed.scene.specimen;
   const scene::SpringBody body(specimen.network, tissue::Kinematics::linear, law, specimen.held);
   probed.scene.scenario.solver.integrator = method.integrator;
+  probed.scene.scenario.solver.damping = method.damping();
   const BodyMode with_contact =
       contact != nullptr ? highest_mode(*probed.elastic, contact) : BodyMode{};
   const BodyMode& mode = contact != nullptr ? with_contact : probed.highest;
   FreeMotion motion{.scene = &probed.scene,
                     .body = &body,
-                    .lagged = method.lags,
                     .centred = method == Method{},
                     .mode = mode,
                     .contact = contact};
-  Measured measured;
-  measured.theory = limit_theory(method, mode.frequency, law);
+  LimitRow row;
+  row.theory = limit_theory(method, mode.frequency, law);
   const double explicit_limit = 2.0 / mode.frequency;
-  Ending beyond = Ending::bounded;
+  Moved beyond;  // the limit
   const auto stable = [&](double step) {
     const Moved moved = move(motion, step);
-    if (moved.ending != Ending::bounded) beyond = moved.ending;
-    return moved.ending == Ending::bounded;
+    if (moved.failure != Failure::none) beyond = moved;
+    return moved.failure == Failure::none;
   };
-  if (measured.theory) {
+  if (row.theory) {
     choose_length(motion, damping_ratio(mode.frequency, law));
-    measured.limit = bisect_limit(stable, 0.5 * explicit_limit, 2e4 * explicit_limit, resolution);
-    measured.failure = measured.limit ? failure_of(beyond) : Failure::none;
-    if (!measured.limit) measured.note = "no limit found";
-    return measured;
+    row.measured = bisect_limit(stable, 0.5 * explicit_limit, 2e4 * explicit_limit, resolution);
+    row.failure = row.measured ? beyond.failure : Failure::none;
+    if (!row.measured) row.note = "no limit found";
+    return row;
   }
   motion.steps = 100;
   for (double times = method.integrator == Integrator::modal ? farthest : 1.0; times <= farthest;
        times *= 10.0) {
     if (stable(times * explicit_limit)) continue;
-    measured.failure = failure_of(beyond);
-    measured.limit =
+    row.failure = beyond.failure;
+    row.measured =
         bisect_limit(stable, times * explicit_limit, 2.0 * times * explicit_limit, resolution);
-    if (beyond == Ending::cannot_step) measured.note = "its equations have no solution";
-    return measured;
+    if (beyond.cannot_step) row.note = "its equations have no solution";
+    return row;
   }
-  measured.note = "stable at " + rounded_text(farthest, 4) + " times the explicit limit, " +
-                  rounded_text(farthest * explicit_limit, 3) + " s";
-  return measured;
+  row.note = "stable at " + rounded_text(farthest, 4) + " times the explicit limit, " +
+             rounded_text(farthest * explicit_limit, 3) + " s";
+  return row;
+}
+
+namespace {
+
+// The exact motion during one frame under a constant force.
+struct Frame {
+  double keep;          // factor of the velocity, exp(-b T / m)
+  double glide;         // s, displacement per initial velocity
+  double push, thrust;  // m/N and m/(s N), displacement and velocity per force
+
+  explicit Frame(const Device& device) {
+    const double time = device.sampled.frame;
+    const double x = device.sampled.damping * time / device.mass;
+    keep = std::exp(-x);
+    // mean = (1 - e^-x) / x and rest = (1 - mean) / x, for small x by their series
+    const double mean = x > 1e-4 ? -std::expm1(-x) / x : 1.0 - x / 2.0 + x * x / 6.0;
+    const double rest = x > 1e-4 ? (1.0 - mean) / x : 0.5 - x / 6.0 + x * x / 24.0;
+    glide = time * mean;
+    push = time * time / device.mass * rest;
+    thrust = time / device.mass * mean;
+  }
+  void pass(double force, double& place, double& speed) const {
+    place += glide * speed + push * force;
+    speed = keep * speed + thrust * force;
+  }
+};
+
+}  // namespace
+
+bool wall_gains_energy(const Device& device, double stiffness) {
+  const Frame frame(device);
+  const contact::SampledDevice& sampled = device.sampled;
+  // At a stiffness that is e (relative) above the bound the energy grows at the rate e b / m: by
+  // exp(6 e) from the second to the fourth quarter, 1.02 at e = 0.0033.
+  const double settling = device.mass / (sampled.damping * sampled.frame);
+  const int frames = static_cast<int>(std::clamp(12.0 * settling, 2000.0, 1e7));
+  std::array<double, 4> greatest{};
+  double place = 1e-3;
+  double before = place;
+  double speed = 0.0;
+  const double first = 0.5 * stiffness * place * place;
+  for (int i = 0; i < frames; ++i) {
+    const double force =
+        -stiffness * place - sampled.virtual_damping * (place - before) / sampled.frame;
+    before = place;
+    frame.pass(force, place, speed);
+    const double energy = 0.5 * device.mass * speed * speed + 0.5 * stiffness * place * place;
+    if (!(energy < 1e9 * first)) return true;
+    double& most = greatest[as_index(4LL * i / frames)];
+    most = std::max(most, energy);
+  }
+  return greatest[3] > 1e-20 * first && greatest[3] > 1.02 * greatest[1];
+}
+
+double chatter_share(const Device& device, double stiffness, const Push& push) {
+  const Frame frame(device);
+  double place = 0.0;
+  double speed = 0.0;
+  bool touching = false;
+  int flips = 0;
+  for (int i = 0; i < push.frames; ++i) {
+    const bool touches = place > 0.0;
+    if (2 * i >= push.frames && touches != touching) ++flips;
+    touching = touches;
+    frame.pass(push.force - (touches ? stiffness * place : 0.0), place, speed);
+  }
+  return 2.0 * flips / push.frames;
 }
 
 }  // namespace palpate::stability

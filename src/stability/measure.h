@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/passivity.h"
 #include "integrate/body.h"
 #include "scenario/integrators.h"
 #include "scene/scene.h"
@@ -35,30 +36,9 @@ struct BodyMode {
 // not held and can move without energy.
 [[nodiscard]] BodyMode lowest_mode(const integrate::Body& body);
 
-// Pseudo-random numbers in [-1/2, 1/2), the same on every machine; 0 for held degrees of freedom.
-[[nodiscard]] integrate::Vector scattered(const integrate::Body& body);
-
-// Central differences whose damping force uses the velocity of the previous step; otherwise the
-// same as integrate::CentralDifference.                  `lagged` in docs/theory.md [semi_implicit]
-class LaggedDifference {
- public:
-  LaggedDifference(const integrate::Body& body, double time_step)
-      : body_(&body), time_step_(time_step) {}
-
-  // M (u(t + dt) - 2 u(t) + u(t - dt)) / dt^2 + D (u(t) - u(t - dt)) / dt + f(u) = F
-  void step(integrate::State& state, const integrate::Vector& load);
-
- private:
-  const integrate::Body* body_;
-  double time_step_;
-  integrate::Vector damping_;
-  integrate::Vector dashpots_;
-};
-
 struct FreeMotion {
   const scene::Scene* scene = nullptr;      // its scenario names the integrator
   const scene::SpringBody* body = nullptr;  // the scene's specimen with another viscous law
-  bool lagged = false;                      // LaggedDifference instead of the integrator
   bool centred = true;  // the damping force uses the mean velocity of two successive steps
   BodyMode mode;        // shape of the stroke; an irregular part of 0.3 of its size is added
   const ContactSpring* contact = nullptr;
@@ -68,18 +48,12 @@ struct FreeMotion {
   double growth = 2.0;
 };
 
-enum class Ending {
-  bounded,
-  grows,        // energy grows without input
-  not_finite,   // a number is infinite or NaN
-  cannot_step,  // the method's equations have no solution
-};
-
 struct Moved {
-  Ending ending = Ending::bounded;
-  int steps = 0;        // carried out
-  double before = 0.0;  // J, largest energy of the second quarter
-  double after = 0.0;   // J, of the last quarter; if the motion was stopped, of the last step
+  Failure failure = Failure::none;  // divergence, or non_finite: also where a step has no solution
+  bool cannot_step = false;         // the method's equations have no solution
+  int steps = 0;                    // carried out
+  double before = 0.0;              // J, largest energy of the second quarter
+  double after = 0.0;  // J, of the last quarter; if the motion was stopped, of the last step
 };
 
 // Computes the motion with this time step, s. Stops if the energy is `enough` times the first.
@@ -140,6 +114,9 @@ struct Method {
 
   bool operator==(const Method&) const = default;
   [[nodiscard]] bool explicit_steps() const { return about(integrator).explicit_steps; }
+  [[nodiscard]] scenario::Solver::Damping damping() const {
+    return lags ? scenario::Solver::Damping::lagged : scenario::Solver::Damping::centred;
+  }
   [[nodiscard]] std::string name() const {
     return lags ? "lagged_velocity" : about(integrator).word;
   }
@@ -175,15 +152,29 @@ inline constexpr Method lagged{.lags = true};
 // the amplitude of an undamped mode: the larger root of s^2 - (x^2 - 2) s + 1.
 [[nodiscard]] double growth_beyond(double omega_step);
 
-struct Measured {
-  std::optional<double> limit;      // s; nothing: none was found
-  std::optional<double> theory;     // s
-  Failure failure = Failure::none;  // beyond the limit
-  std::string note;
-};
-// The limit of `method` for the body with the viscous law `law`; `contact` may be null. `modal`,
-// whose decomposition is repeated in every trial, is tried with one time step only.
-[[nodiscard]] Measured measure_limit(ProbedBody& probed, const Method& method,
+// The limit of `method` for the body with the viscous law `law`: measured, by theory, and what
+// fails beyond it, with a note. `contact` may be null. `modal`, whose decomposition is repeated in
+// every trial, is tried with one time step only.
+[[nodiscard]] LimitRow measure_limit(ProbedBody& probed, const Method& method,
                                      const tissue::ViscousLaw& law, const ContactSpring* contact);
+
+// A haptic device on a virtual wall whose force changes once per frame.
+// m x'' + b x' = F: the device without a hand.
+struct Device {
+  double mass = 0.045;  // kg, of a desktop arm according to its data sheet
+  contact::SampledDevice sampled;
+};
+
+// Whether the energy of the device on a wall of this stiffness (N/m) grows. The force is constant
+// during a frame, in which the motion is exact. The wall is bilateral: the motion is linear.
+[[nodiscard]] bool wall_gains_energy(const Device& device, double stiffness);
+
+// The fraction of the last `frames` / 2 frames in which contact begins or ends while a hand presses
+// with a constant `force` (N) on a wall of this stiffness (N/m) that only pushes.
+struct Push {
+  double force = 1.0;  // N
+  int frames = 20000;
+};
+[[nodiscard]] double chatter_share(const Device& device, double stiffness, const Push& push);
 
 }  // namespace palpate::stability

@@ -8,7 +8,6 @@
 #include "integrate/implicit.h"
 #include "mechanics/stepper.h"
 #include "scenario/words.h"
-#include "stability/sampled_wall.h"
 #include "stability/survey.h"
 
 namespace palpate::stability {
@@ -202,7 +201,7 @@ void probe_divergence(Survey& survey) {
     row.setting_unit = "time step over 2/omega_max";
     row.measure = "growth of the amplitude in a step";
     const Moved early = move(motion, share * limit, 1e8);
-    row.reached = early.ending == Ending::grows;
+    row.reached = early.failure == Failure::divergence;
     if (row.reached) {
       const Moved late = move(motion, share * limit, 1e40);
       row.measured =
@@ -233,7 +232,7 @@ void probe_overflow(Survey& survey) {
   row.setting = 2.0;
   row.setting_unit = "time step over 2/omega_max";
   row.measure = "steps until energy is no number";
-  row.reached = late.ending == Ending::not_finite;
+  row.reached = late.failure == Failure::non_finite;
   row.measured = late.steps;
   // E_n = E_1 s^(2 (n - 1)) exceeds the largest double.
   const double room = std::log(std::numeric_limits<double>::max()) - std::log(early.after);
@@ -297,47 +296,6 @@ void probe_time(Survey& survey) {
 
 namespace {
 
-// Whether a press to `depth` (m) and back at `speed` (m/s) can fall between two frames.
-bool slips_through(double depth, double speed, double frame) {
-  constexpr int phases = 1000;
-  const double lasts = 2.0 * depth / speed;
-  for (int i = 0; i < phases; ++i) {
-    // `time` runs over the frames after the first contact, which lies between two frames.
-    bool seen = false;
-    for (double time = frame * (i + 1) / phases; time < lasts && !seen; time += frame) seen = true;
-    if (!seen) return true;
-  }
-  return false;
-}
-
-double first_rate(const scenario::Scenario& scenario) {
-  for (const scenario::Step& step : scenario.steps)
-    if (const auto* indent = std::get_if<scenario::Indent>(&step)) return indent->rate;
-  return 0.0;
-}
-
-void probe_tunnelling(Survey& survey, double depth) {
-  survey.go_on("tunnelling");
-  const scenario::Scenario& scenario = survey.one->scenario;
-  const double frame = scenario.output.interval;
-  const double rate = first_rate(scenario);
-  FailureRow row;
-  row.failure = Failure::tunnelling;
-  row.model = "any";
-  row.setting = 1e3 * rate;
-  row.setting_unit = "mm/s, the rate of loading";
-  row.measure =
-      "rate above which a press to the largest displacement falls between two frames, mm/s";
-  const auto seen = [&](double speed) { return !slips_through(depth, speed, frame); };
-  row.theory = 1e3 * 2.0 * depth / frame;
-  if (const auto limit = bisect_limit(seen, 0.01 * depth / frame, 1e3 * depth / frame, 1e-4))
-    row.measured = 1e3 * *limit;
-  row.reached = slips_through(depth, rate, frame);
-  row.note = "a press of the loading history lasts " +
-             std::to_string(std::lround(2.0 * depth / rate / frame)) + " frames, in and out";
-  survey.map.failures.push_back(std::move(row));
-}
-
 // A hand pushes on a wall with the stiffness of the contact, through a device whose damping is
 // `share` times the bound of Colgate and Brown for frames of 1 ms.
 void probe_chatter(Survey& survey, double stiffness) {
@@ -365,8 +323,6 @@ void probe_chatter(Survey& survey, double stiffness) {
 void probe_touch(Survey& survey) {
   const auto spring = contact_spring(*survey.own);
   if (!spring) return;
-  const scene::Scene& scene = survey.own->scene;
-  probe_tunnelling(survey, scene::deepest_travel(scene.scenario, scene.law()));
   probe_chatter(survey, spring->stiffness);
 }
 

@@ -22,7 +22,6 @@ enum class Failure {
   locking,            // stiffness grows with the bulk modulus as nu approaches 1/2
   drift,              // without a damper, energy is lost, or gained too slowly for divergence
   chatter,            // the contact begins or ends again and again from frame to frame
-  tunnelling,         // a press begins and ends between two frames
 };
 [[nodiscard]] const char* failure_word(Failure failure);
 

@@ -1,7 +1,6 @@
 // The context that the functions of a stability map share while it is measured.
 #pragma once
 
-#include "contact/passivity.h"
 #include "stability/measure.h"
 
 namespace palpate::stability {
@@ -28,24 +27,12 @@ struct Survey {
       const ModelAndVolume& on, const std::function<void(scenario::Scenario&)>& change = {});
 };
 
-struct Setting {
-  std::string axis;
-  std::optional<double> value = {};
-  std::string damping = {};
-  std::string note = {};
-  const ContactSpring* contact = nullptr;
-};
-
-// Measures one limit and adds its row to the map.
-void add_limit(Survey& survey, ProbedBody& probed, const Method& method,
-               const tissue::ViscousLaw& law, const Setting& setting);
-
 // The parts of the map.
 void survey_models(Survey& survey);
 void survey_axes(Survey& survey);
 void probe_time(Survey& survey);   // divergence, non_finite, drift
 void probe_shape(Survey& survey);  // inversion, false equilibrium, locking
-void probe_touch(Survey& survey);  // tunnelling, chatter
+void probe_touch(Survey& survey);  // chatter
 
 // The longest step (s) that was stable with central differences and the scenario's own model.
 [[nodiscard]] std::optional<double> longest_step(const Survey& survey);

@@ -13,7 +13,7 @@
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
-#include "fit/model.h"
+#include "fit/regression.h"
 #include "record/csv.h"
 #include "record/table.h"
 

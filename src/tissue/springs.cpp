@@ -75,33 +75,25 @@ void directions(const Network& network, Kinematics kinematics, const Vector& dis
     direction[s] = direction_of(network, kinematics, displacement, s);
 }
 
-namespace {
-
-// One row per volume with its change per displacement, and its stiffness as weight.
-void add_volumes(const Network& network, std::span<const Vec3> along, double factor,
-                 BlockMatrix& matrix) {
-  std::vector<std::pair<int, Vec3>> row;
-  for (const SharedVolume& volume : network.volumes) {
-    row.clear();
-    for (std::size_t k = 0; k < volume.springs.size(); ++k) {
-      const std::size_t s = as_index(volume.springs[k]);
-      const Vec3 pull = volume.dilation[k] * along[s];
-      row.emplace_back(network.ends[s][0], -pull);
-      row.emplace_back(network.ends[s][1], pull);
-    }
-    std::stable_sort(row.begin(), row.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::size_t kept = 0;
-    for (std::size_t i = 1; i < row.size(); ++i)
-      if (row[i].first == row[kept].first)
-        row[kept].second += row[i].second;
-      else
-        row[++kept] = row[i];
-    matrix.add_shared(std::span(row).first(row.empty() ? 0 : kept + 1), factor * volume.stiffness);
+void changes_of(const Network& network, const SharedVolume& volume, std::span<const Vec3> direction,
+                std::vector<std::pair<int, Vec3>>& changes) {
+  changes.clear();
+  for (std::size_t k = 0; k < volume.springs.size(); ++k) {
+    const std::size_t s = as_index(volume.springs[k]);
+    const Vec3 pull = volume.dilation[k] * direction[s];
+    changes.emplace_back(network.ends[s][0], -pull);
+    changes.emplace_back(network.ends[s][1], pull);
   }
+  std::stable_sort(changes.begin(), changes.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < changes.size(); ++i)
+    if (changes[i].first == changes[kept].first)
+      changes[kept].second += changes[i].second;
+    else
+      changes[++kept] = changes[i];
+  if (!changes.empty()) changes.resize(kept + 1);
 }
-
-}  // namespace
 
 ElementPulls element_pulls(const Network& network, const CoupledSprings& six,
                            std::span<const Vec3> direction) {
@@ -156,7 +148,11 @@ BlockMatrix tangent(const Network& network, Kinematics kinematics, const Vector&
         matrix.add(pulls.corners[as_index(i)], pulls.corners[as_index(j)],
                    forces.middleRows<3>(3 * i) * pulls.along.middleRows<3>(3 * j).transpose());
   }
-  if (!network.volumes.empty()) add_volumes(network, along, factor, matrix);
+  std::vector<std::pair<int, Vec3>> changes;
+  for (const SharedVolume& volume : network.volumes) {
+    changes_of(network, volume, along, changes);
+    matrix.add_shared(changes, factor * volume.stiffness);
+  }
   return matrix;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/block_matrix.h"
@@ -35,6 +36,11 @@ struct ElementPulls {
 };
 [[nodiscard]] ElementPulls element_pulls(const Network& network, const CoupledSprings& six,
                                          std::span<const Vec3> direction);
+
+// The change of an averaged volume per displacement of each of its nodes, 1/m, by ascending nodes,
+// for given directions of all springs of the network.
+void changes_of(const Network& network, const SharedVolume& volume, std::span<const Vec3> direction,
+                std::vector<std::pair<int, Vec3>>& changes);
 
 // The matrix of [tangent], N/m, without supports: a change of elongations changes the tensions by
 // `factor` times its tensions(). Unless kinematics are linear, which need neither `displacement`

@@ -13,8 +13,12 @@ namespace palpate::tissue {
 [[nodiscard]] double safe_frequency_squared(const Network& network);
 
 // The largest eigenvalue omega_max^2 (1/s^2) of M^-1 K without the held degrees of freedom, by
-// Lanczos. The residual, at most 1e-6 of it (1e-4 on large bodies), is added, so that the result is
-// at least the eigenvalue found; it never exceeds safe_frequency_squared(). docs/theory.md [limit]
+// largest_eigenpair(). The residual, at most 1e-6 of it (1e-4 on large bodies), is added, so that
+// the result is at least the eigenvalue found; it never exceeds safe_frequency_squared(). Throws
+// MeshError like that.                                                  docs/theory.md [limit]
 [[nodiscard]] double largest_frequency_squared(const Network& network, std::span<const char> held);
+
+// Pseudo-random numbers in [-1/2, 1/2), the same on every machine.
+[[nodiscard]] Vector scattered(Eigen::Index size);
 
 }  // namespace palpate::tissue

@@ -140,11 +140,6 @@ std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh, const Spring
   return stiffness;
 }
 
-std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
-                                     std::span<const double> young_modulus) {
-  return fitted_stiffness(mesh, fit_springs(mesh), young_modulus);
-}
-
 namespace {
 
 // The mean increase of the distance between the two outer faces along an axis, over that distance.

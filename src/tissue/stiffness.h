@@ -21,20 +21,17 @@ enum class StiffnessRule { van_gelder, fitted };
 //   sum_v || sum_{e at v} 1/2 k_e l_e^2 n n n n  -  V_v C ||^2,
 // where C is the isotropic stiffness for E and nu = 1/4, the only ratio that central forces have. A
 // weak second term prefers Van Gelder's values where this leaves a choice. The fit is that of one
-// tissue; a spring between tissues gets the mean modulus of the volume around it. (A fit across a
-// stiff interface would soften the soft side's springs to make up for the stiff side.)
-//                                                                       docs/theory.md [fitted]
-[[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
-                                                   std::span<const double> young_modulus);
-
-// The part of the fit that does not depend on the moduli, one value per sorted edge, m^3: k_e l_e^2
-// over E for one tissue, fitted and by Van Gelder. It is slow and serves all tissues on a mesh.
+// tissue: per sorted edge k_e l_e^2 over E, m^3, fitted and by Van Gelder. It is slow and serves
+// all tissues on a mesh.                                                       docs/theory.md
+// [fitted]
 struct SpringFit {
   std::vector<double> fitted;
   std::vector<double> van_gelder;
 };
 [[nodiscard]] SpringFit fit_springs(const geometry::TetMesh& mesh);
-// `fit` must be that of the same mesh.
+// With the fit of the same mesh. A spring between tissues gets the mean modulus of the volume
+// around it. (A fit across a stiff interface would soften the soft side's springs to make up for
+// the stiff side.)
 [[nodiscard]] std::vector<double> fitted_stiffness(const geometry::TetMesh& mesh,
                                                    const SpringFit& fit,
                                                    std::span<const double> young_modulus);

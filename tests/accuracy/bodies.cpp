@@ -37,6 +37,23 @@ std::string cell(const test::Body& body, const std::string& model, int nodes,
 
 }  // namespace
 
+void print_rows(const std::string& lead, const std::string& empty,
+                const std::vector<std::pair<std::string, std::string>>& rows) {
+  std::vector<std::pair<std::string, std::string>> merged;
+  for (const auto& [name, cells] : rows) {
+    const auto same =
+        std::ranges::find(merged, cells, &std::pair<std::string, std::string>::second);
+    if (same != merged.end())
+      same->first += "; " + name;
+    else
+      merged.emplace_back(name, cells);
+  }
+  for (const auto& [names, cells] : merged)
+    std::printf("|%s %s |%s\n", (&names == &merged.front().first ? lead : empty).c_str(),
+                names.c_str(), cells.c_str());
+  std::fflush(stdout);
+}
+
 void bodies_table() {
   std::printf(
       "\n## Discs, domes and inclusions\n\nThe largest error at depths of up to a tenth of the "
@@ -48,20 +65,21 @@ void bodies_table() {
       "solid\n([tests/cases/bodies.csv](../tests/cases/bodies.csv)). All bodies are surface files; "
       "the default mesh is refined where its\nerror comes from. `lump-x20` has a ball of 5 mm, 20 "
       "times as stiff, 10 mm deep, and `lump-x1` the same ball of the same\ntissue.\n\n"
-      "| body | rung | 200 nodes | 400 nodes | 1500 nodes | default "
+      "| body | model | 200 nodes | 400 nodes | 1500 nodes | default "
       "|\n|---|---|---|---|---|---|\n");
-  for (const test::Body& body : test::all_bodies())
+  for (const test::Body& body : test::all_bodies()) {
+    std::vector<std::pair<std::string, std::string>> rows;
     for (const char* model : {"mass_spring", "coupled_springs"}) {
-      const bool first = model == std::string("mass_spring");
-      std::printf("| %s | %s |", first ? body.id.c_str() : "", model);
+      auto& [name, cells] = rows.emplace_back(model, "");
       for (const int nodes : {200, 400, 1500})
-        std::printf(" %s |",
-                    cell(body, model, nodes,
-                         "mesh = { kind = \"tetgen\", nodes = " + std::to_string(nodes) + " }\n")
-                        .c_str());
-      std::printf(" %s |\n", cell(body, model, 728, "").c_str());
-      std::fflush(stdout);
+        cells += " " +
+                 cell(body, model, nodes,
+                      "mesh = { kind = \"tetgen\", nodes = " + std::to_string(nodes) + " }\n") +
+                 " |";
+      cells += " " + cell(body, model, 728, "") + " |";
     }
+    print_rows(" " + body.id + " |", "  |", rows);
+  }
 }
 
 }  // namespace palpate

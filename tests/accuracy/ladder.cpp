@@ -46,9 +46,9 @@ void blocks_table() {
     const char* name;
     const char* text;
   };
-  const Mesh meshes[] = {{"lattice 140", "{kind=\"mirrored\",cells=[3,4,6]}"},
+  const Mesh meshes[] = {{"structured 140", "{kind=\"mirrored\",cells=[3,4,6]}"},
                          {"TetGen 164", "{kind=\"tetgen\",nodes=164}"},
-                         {"lattice 405", "{kind=\"mirrored\",cells=[8,8,4]}"},
+                         {"structured 405", "{kind=\"mirrored\",cells=[8,8,4]}"},
                          {"TetGen 728", "{kind=\"tetgen\",nodes=728}"},
                          {"TetGen 1500", "{kind=\"tetgen\",nodes=1500}"}};
   std::printf(
@@ -58,7 +58,7 @@ void blocks_table() {
       "`layer` have no mesh. The band was computed by an independent\nprogram: "
       "[tests/elasticity](../tests/elasticity/README.md) describes the blocks, the depths and the "
       "forces.\n\n"
-      "| block | hertz | layer | rung |");
+      "| block | hertz | layer | model |");
   for (const Mesh& mesh : meshes) std::printf(" %s |", mesh.name);
   std::printf("\n|---|---|---|---|");
   for (std::size_t i = 0; i < std::size(meshes); ++i) std::printf("---|");
@@ -68,16 +68,16 @@ void blocks_table() {
     const auto layer = block_error(block, "layer", meshes[0].text);
     const std::pair<const char*, const char*> model_traits[] = {
         {"mass_spring", "none"}, {"mass_spring", "nodal"}, {"coupled_springs", "nodal"}};
+    std::vector<std::pair<std::string, std::string>> rows;
     for (const auto& [model, volume] : model_traits) {
-      const bool first = volume == std::string("none");
-      std::printf("| %s | %s | %s | %s%s |", first ? block.name.c_str() : "",
-                  first ? percent(hertz).c_str() : "", first ? percent(layer).c_str() : "", model,
-                  model == std::string("mass_spring") && !first ? ", nodal volume" : "");
+      const bool added = model == std::string("mass_spring") && volume == std::string("nodal");
+      auto& [name, cells] =
+          rows.emplace_back(model + std::string(added ? ", nodal volume" : ""), "");
       for (const Mesh& mesh : meshes)
-        std::printf(" %s |", percent(block_error(block, model, mesh.text, volume)).c_str());
-      std::printf("\n");
+        cells += " " + percent(block_error(block, model, mesh.text, volume)) + " |";
     }
-    std::fflush(stdout);
+    print_rows(" " + block.name + " | " + percent(hertz) + " | " + percent(layer) + " |",
+               "  |  |  |", rows);
   }
 }
 
@@ -138,7 +138,7 @@ void uniform_table() {
       "\n## Uniform tests\n\nThe largest error of creep, recovery (relative to the strain at its "
       "beginning) and relaxation of a block between\nfrictionless platens, compared with the "
       "closed form, in percent; 300 nodes from TetGen, quasi-static rows of 10 ms.\n\n"
-      "| nu | rung | Kelvin-Voigt creep and recovery | standard linear solid relaxation |\n"
+      "| nu | model | Kelvin-Voigt creep and recovery | standard linear solid relaxation |\n"
       "|---|---|---|---|\n");
   for (const double nu : {0.0, 0.25, 0.33, 0.45, 0.49}) {
     for (const char* model : {"mass_spring", "coupled_springs"}) {
@@ -258,8 +258,9 @@ int main(int count, char** arguments) {
     if (count > 1) palpate::figure(arguments[1]);
     std::printf(
         "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes. The grey "
-        "band is that of linear elasticity. The static\nforce of both kinds of springs comes from "
-        "the same finite elements.\n");
+        "band is that of linear elasticity. The force at rest of both\nkinds of springs comes from "
+        "the "
+        "same finite elements.\n");
   }
   if (wanted("bodies")) palpate::bodies_table();
   if (wanted("uniform")) palpate::uniform_table();

@@ -148,9 +148,8 @@ const Top tops[] = {{cylinder, 1.0 / 0.030, 0.0},
                     {ellipsoid, 0.025 / (0.030 * 0.030), 0.025 / (0.045 * 0.045)}};
 
 double closed_form(const scene::Scene& scene, const Top& top, double depth) {
-  return contact::elliptic_law(scene.finger.sphere_modulus, scene.finger.sphere_radius, top.kappa_1,
-                               top.kappa_2)
-      ->force(depth);
+  const auto law = contact::elliptic_law(scene.finger.sphere_radius, top.kappa_1, top.kappa_2);
+  return contact::hertz::force(depth, law->force_radius, scene.finger.sphere_modulus);
 }
 
 TEST(Contacts, HertzIsTheEllipticClosedForm) {

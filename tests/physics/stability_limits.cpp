@@ -44,17 +44,17 @@ TEST_P(Limits, EveryMethodAndDamping) {
     for (const Method& method : methods()) {
       if (method.integrator == Integrator::modal && form != Viscosity::none)
         continue;  // exact; decomposing takes long
-      const Measured measured = measure_limit(*probed, method, damping.law, nullptr);
+      const LimitRow measured = measure_limit(*probed, method, damping.law, nullptr);
       const std::string what =
           method.name() + ", " + scenario::words::word(scenario::words::viscosities, form);
       if (!measured.theory) {
-        EXPECT_FALSE(measured.limit) << what;
+        EXPECT_FALSE(measured.measured) << what;
         EXPECT_EQ(measured.failure, Failure::none) << what;
         continue;
       }
-      ASSERT_TRUE(measured.limit) << what;
+      ASSERT_TRUE(measured.measured) << what;
       // The promise is 2 %; bisection and what counts as growth leave half a percent.
-      EXPECT_NEAR(*measured.limit, *measured.theory, 0.005 * *measured.theory) << what;
+      EXPECT_NEAR(*measured.measured, *measured.theory, 0.005 * *measured.theory) << what;
       EXPECT_NE(measured.failure, Failure::none) << what;
     }
   }
@@ -108,9 +108,9 @@ TEST(Limits, WithAContact) {
   for (const double times : {10.0, 1000.0}) {
     ContactSpring stiff = *spring;
     stiff.stiffness *= times;
-    const Measured measured = measure_limit(*probed, Method{}, {}, &stiff);
-    ASSERT_TRUE(measured.limit);
-    EXPECT_NEAR(*measured.limit, *measured.theory, 0.005 * *measured.theory) << times;
+    const LimitRow measured = measure_limit(*probed, Method{}, {}, &stiff);
+    ASSERT_TRUE(measured.measured);
+    EXPECT_NEAR(*measured.measured, *measured.theory, 0.005 * *measured.theory) << times;
     EXPECT_LT(*measured.theory, alone);
     // omega^2 is at least that of the contact on its nodes alone.
     const double least =

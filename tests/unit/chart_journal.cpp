@@ -69,6 +69,7 @@ void expect_same(const Measurement& got, const Measurement& want) {
     EXPECT_EQ(got.time_error->rms, want.time_error->rms);
   }
   EXPECT_EQ(got.time_floor, want.time_floor);
+  EXPECT_EQ(got.surface_error, want.surface_error);
   ASSERT_EQ(got.timings.size(), want.timings.size());
   for (std::size_t i = 0; i < got.timings.size(); ++i) {
     EXPECT_EQ(got.timings[i].build, want.timings[i].build);
@@ -84,6 +85,7 @@ TEST_F(JournalOnDisk, EveryTimingIsThereAgain) {
   cannot.note = "`b` cannot,\nfor two reasons";
   Measurement timed = measured("c");
   timed.time_error = Deviation{1e-3, 2e-3, 3e-3};
+  timed.surface_error = 0.125;
   {
     Journal journal(folder_, "me", Replace::incomplete);
     EXPECT_FALSE(journal.resumed());
@@ -178,6 +180,20 @@ TEST_F(JournalOnDisk, ReferencesAreKept) {
   EXPECT_EQ(got.moments[0].error, 0.3);
   EXPECT_EQ(got.moments[1].value, 1e-9);
   EXPECT_TRUE(truth_of(again.references().at("in_time_0")).moments.empty());
+}
+
+TEST(SurfaceTable, IsReadAsItWasWritten) {
+  run::SurfaceReference surface;
+  surface.error = 0.1 / 3.0;
+  surface.pieces = {{Vec3(1e-3 / 3.0, 0.0, 0.03), Vec3(0.0, 1e-9, -1e-3 / 7.0), 2e-6 / 3.0},
+                    {Vec3::Zero(), Vec3::UnitX(), 1.0}};
+  const run::SurfaceReference again = surface_of(surface_table(surface));
+  EXPECT_EQ(again.error, surface.error);
+  ASSERT_EQ(again.pieces.size(), 2U);
+  EXPECT_EQ(again.pieces[0].place, surface.pieces[0].place);
+  EXPECT_EQ(again.pieces[0].displacement, surface.pieces[0].displacement);
+  EXPECT_EQ(again.pieces[0].area, surface.pieces[0].area);
+  EXPECT_TRUE(surface_of(surface_table({})).pieces.empty());
 }
 
 }  // namespace

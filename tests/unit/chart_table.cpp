@@ -83,6 +83,32 @@ TEST(ChartTable, WhatWasNotMeasuredTakesNoPart) {
             std::string::npos);
 }
 
+TEST(ChartTable, SpringsOfOneForceAreToldApartByTheirDisplacedSurface) {
+  CaseChart chart =
+      chart_of({measured("mass_spring", 1, 0.012), measured("coupled_springs", 2, 0.012)});
+  EXPECT_EQ(chart_text({chart}).find("displaced surface within"), std::string::npos);
+  chart.rows[0].surface_error = 0.21;
+  chart.rows[1].surface_error = 0.03;
+  chart.surface.error = 0.004;
+  const std::string text = chart_text({chart});
+  EXPECT_NE(text.find(" `mass_spring` and `coupled_springs` have the same force, an error of 1.2 "
+                      "%; the displaced surface within four contact radii is off by 21 % with "
+                      "`mass_spring` and by 3 % with `coupled_springs` (root mean square over the "
+                      "largest displacement, compared with `solid`, whose own error there is 0.4 "
+                      "%).\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| `mass_spring` | 1.2 % | 21 % |"), std::string::npos) << text;
+  const record::Table table = chart_table({chart});
+  const auto cell = [&](const char* column) {
+    return table.rows[1][static_cast<std::size_t>(table.find(column))];
+  };
+  EXPECT_EQ(cell("surface_error"), record::Cell(0.03));
+  EXPECT_EQ(cell("surface_reference_error"), record::Cell(0.004));
+  chart.rows[0].error->greatest = 0.02;  // another force
+  EXPECT_EQ(chart_text({chart}).find("displaced surface within"), std::string::npos);
+}
+
 TEST(ChartTable, MediansAndSpreads) {
   Measurement one = measured("a", 1, 0.1);
   one.timings = {{0, 0, 3e-3}, {0, 0, 1e-3}, {0, 0, 2e-3}, {0, 0, 9e-3}};

@@ -9,6 +9,9 @@
 
 #include "contact/hertz.h"
 #include "run/choose.h"
+#include "run/displaced_surface.h"
+#include "run/family.h"
+#include "run/refined_mesh.h"
 #include "scenario_text.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
@@ -121,6 +124,38 @@ TEST(ChartReference, OfABodyThatSwingsIsTheSolidsForceAndWhatInertiaAdds) {
   const ReferenceRow& last = found.rows.back();
   EXPECT_LT(last.error, 0.015 * last.force);
   EXPECT_NEAR(1e3 * last.force, 8.55, 0.15);  // the static force of CalculiX, and a swing of 1 %
+}
+
+// The force at rest of both kinds of springs is the same; what they displace is not, and more cells
+// help only those that are coupled.
+TEST(ChartReference, TheDisplacedSurfaceTellsSpringsApart) {
+  const Asked press = asked(
+      "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\nrate = \"1 mm/s\"\n[tissue]\nyoung_modulus = "
+      "\"20 kPa\"\npoisson_ratio = 0.45\nviscosity = \"none\"\nshape = { kind = \"cuboid\", size = "
+      "[\"40 mm\", \"40 mm\", \"20 mm\"] }\n[finger]\nmaterial = \"rigid\"\n[output]\ninterval = "
+      "\"100 ms\"\n");
+  const run::SurfaceReference surface = refer_surface(press, 0);
+  ASSERT_GT(surface.pieces.size(), 100U);
+  EXPECT_LT(surface.error, 0.02);
+  const auto error = [&](const char* model, const char* cells) {
+    const scenario::Family family =
+        with_settings(press, 0,
+                      {std::string("solver.model=") + model, "solver.integrator=quasi_static",
+                       std::string("tissue.mesh={kind='mirrored',cells=") + cells + "}"});
+    scene::Scene scene = run::build_scene(family.cases.front(), family);
+    scene.scenario.output.tissue = true;
+    return run::surface_error(run::run_case(scene), surface.pieces).value();
+  };
+  const double coarse = error("coupled_springs", "[8,8,4]");
+  const double fine = error("coupled_springs", "[12,12,6]");
+  const double springs = error("mass_spring", "[12,12,6]");
+  EXPECT_LT(fine, 0.75 * coarse);
+  EXPECT_GT(springs, 0.95 * error("mass_spring", "[8,8,4]"));
+  EXPECT_GT(springs, 1.8 * fine);
+}
+
+TEST(ChartReference, AUniformTestDisplacesNoSurfaceToCompare) {
+  EXPECT_TRUE(refer_surface(asked(scenario::creep), 0).pieces.empty());
 }
 
 TEST(ChartReference, StoppedItSaysNothing) {

@@ -20,7 +20,8 @@ struct Ratios {
 };
 Ratios ratios(double a_over_b) {
   const double kappa = 1.0 / a_over_b - 1.0;  // on a sphere of radius 1, flat the other way
-  const double exact = contact::elliptic_law(1.0, 1.0, kappa, 0.0).value().force(1e-3);
+  const double radius = contact::elliptic_law(1.0, kappa, 0.0).value().force_radius;
+  const double exact = contact::hertz::force(1e-3, radius, 1.0);
   return {exact / contact::hertz::force(1e-3, contact::mean_radius(1.0, kappa, 0.0), 1.0),
           exact / contact::hertz::force(1e-3, contact::geometric_radius(1.0, kappa, 0.0), 1.0)};
 }

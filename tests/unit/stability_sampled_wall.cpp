@@ -7,7 +7,6 @@
 #include "cases.h"
 #include "contact/hertz.h"
 #include "stability/measure.h"
-#include "stability/sampled_wall.h"
 
 namespace palpate::stability {
 namespace {
