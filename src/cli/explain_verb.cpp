@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "base/vector_text.h"
+#include "base/written.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "page/page.h"
@@ -381,8 +382,7 @@ class Explanation {
     if (scene_.specimen)
       text += std::string("; measured by `") +
               word(scenario::words::curvature_methods, contact.curvature) + "` over " +
-              std::to_string(contact.curvature_rings) +
-              (contact.curvature_rings == 1 ? " ring" : " rings") + " of vertices, " +
+              count_text(as_index(contact.curvature_rings), "ring") + " of vertices, " +
               (contact.curvature_on == scenario::Contact::CurvatureOn::rest ? "at rest"
                                                                             : "as deformed");
     line(text);
@@ -423,7 +423,7 @@ class Explanation {
       line("  surface      " + specimen.warning);
     if (const auto& refined = specimen.refined; refined && refined->rounds > 0)
       line("  refined      from " + std::to_string(refined->start_nodes) + " nodes in " +
-           std::to_string(refined->rounds) + (refined->rounds == 1 ? " round" : " rounds") +
+           count_text(as_index(refined->rounds), "round") +
            ", where the error in the force comes from, " +
            (refined->error <= refined->wanted ? "until it is below " + percent_text(refined->wanted)
                                               : "as far as `tissue.mesh.most_nodes` allows"));

@@ -80,6 +80,7 @@ std::string SweepAnswer::error() const {
   };
   const std::string low = text(errors_.low), high = text(errors_.high);
   return "± " + low + (low == high ? "" : " to " + high) +
+         (tolerance.empty() ? "" : " (tolerance " + tolerance + ")") +
          (unknown_ == 0 ? "" : ", not known in " + of_cases(unknown_, cases_)) +
          (uncounted_cases_ == 0 ? ""
           : uncounted_cases_ == cases_

@@ -1,11 +1,13 @@
 // Merges in three passes with one row in memory: swept values, names of results, the table.
 #include "sweep/merge.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "record/csv.h"
 #include "record/record.h"
 #include "record/table.h"
@@ -164,6 +166,9 @@ SweepTotals count_results(const SweepPlan& plan, const SweepResults& results) {
 SweepAnswer merge_sweep(const SweepPlan& plan, const SweepResults& results,
                         const SweepTotals& totals, WholeFolder& folder) {
   SweepAnswer answer = Merge(plan, results, folder).write();
+  const std::vector<std::string>& swept = plan.family.design.keys();
+  if (std::find(swept.begin(), swept.end(), "solver.tolerance") == swept.end())
+    answer.tolerance = percent_text(plan.family.base.solver.tolerance);
   folder.write("merged.json", merged_text(plan, totals, folder.files()));
   return answer;
 }

@@ -6,7 +6,6 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "plot/gnuplot_text.h"
-#include "plot/palette.h"
 #include "sweep/labels.h"
 #include "sweep/response.h"
 

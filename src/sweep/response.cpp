@@ -47,19 +47,17 @@ std::string level_text(const FactorColumn& factor, double value) {
   return factor.is_number() ? number_text(value) : factor.words[static_cast<std::size_t>(value)];
 }
 
-// The edges of a point's cell in a map: halfway to the neighbouring values.
+// The edges of a point's cell in a map: halfway to the neighbouring values, and at the value itself
+// where there is none, so that no colour stands beyond what was computed.
 struct Edges {
   double low, high;
 };
 Edges edges(const std::vector<double>& values, std::size_t i, sweep::Scale scale) {
   const bool log = scale == sweep::Scale::logarithmic;
   const auto between = [&](double a, double b) { return log ? std::sqrt(a * b) : 0.5 * (a + b); };
-  const auto beyond = [&](double a, double edge) { return log ? a * a / edge : a - (edge - a); };
   const double here = values[i];
-  if (values.size() == 1) return {here, here};
-  if (i == 0) return {beyond(here, between(here, values[1])), between(here, values[1])};
-  const double low = between(values[i - 1], here);
-  return {low, i + 1 < values.size() ? between(here, values[i + 1]) : beyond(here, low)};
+  return {i > 0 ? between(values[i - 1], here) : here,
+          i + 1 < values.size() ? between(here, values[i + 1]) : here};
 }
 
 record::Cell number(double value) {

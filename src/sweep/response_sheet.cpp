@@ -1,12 +1,9 @@
 // The gnuplot script of a map with its curves.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
-#include "base/index.h"
 #include "base/text.h"
 #include "plot/gnuplot_text.h"
-#include "plot/palette.h"
 #include "sweep/labels.h"
 #include "sweep/response.h"
 
@@ -114,34 +111,21 @@ std::string data_of_lines(const Response& response, const Lines& lines) {
   return text + "EOD\n";
 }
 
-// The range of a map's axis: from the first to the last edge of its cells.
-std::pair<double, double> outer(const record::Table& table, const std::string& column) {
-  double low = INFINITY;
-  double high = -INFINITY;
-  for (const auto& row : table.rows) {
-    low = std::min(low, std::get<double>(row[as_index(table.find("low_" + column))]));
-    high = std::max(high, std::get<double>(row[as_index(table.find("high_" + column))]));
-  }
-  return {low, high};
-}
-
 bool has_gaps(const Response& response) {
   return std::any_of(response.grid.values.begin(), response.grid.values.end(),
                      [](double value) { return !std::isfinite(value); });
 }
 
 std::string map(const Response& response) {
-  const record::Table table = response_table(response);
   const std::string& x = response.across.column;
   const std::string& y = response.along->column;
-  const auto [left, right] = outer(table, x);
-  const auto [low, high] = outer(table, y);
   const Lines lines = lines_of(response);
   const Ends values = ends(response.grid.values);
   const std::string known = "strcol(" + plot::gnuplot_quoted(response.output) + ") eq ''";
   std::string text =
-      axis("x", response.across, left, right) + axis("y", *response.along, low, high) +
-      "set ylabel " + plot::gnuplot_quoted(factor_label(*response.along)) + "\n" +
+      axis("x", response.across, response.grid.x.front(), response.grid.x.back()) +
+      axis("y", *response.along, response.grid.y.front(), response.grid.y.back()) + "set ylabel " +
+      plot::gnuplot_quoted(factor_label(*response.along)) + "\n" +
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
       scale_of_one("cb", response) + "set cblabel " +
       plot::gnuplot_quoted(output_label(response.output)) + " offset 0.2,0\n" +
@@ -179,16 +163,15 @@ std::vector<std::size_t> chosen(std::size_t count) {
   return all;
 }
 
-// The legend is narrower than an axis: a long key is shortened to its last part.
+// The legend is narrower than an axis: a long name goes without its unit, and then without its
+// first words.
 std::string narrow_label(const sweep::FactorChoice& factor) {
   std::string label = factor_label(factor);
-  if (label.size() <= 14) return label;
-  const std::size_t unit = std::min(label.find(" ("), label.size());
-  std::size_t dot = label.rfind('.', unit);
-  const bool part =
-      dot + 2 == unit && std::isdigit(static_cast<unsigned char>(label[dot + 1])) != 0;
-  if (part && dot > 0) dot = label.rfind('.', dot - 1);  // `size.3`
-  return dot == std::string::npos ? label : label.substr(dot + 1);
+  constexpr std::size_t most = 15;  // letters
+  if (label.size() > most) label.erase(std::min(label.find(" ("), label.size()));
+  while (label.size() > most && label.find(' ') != std::string::npos)
+    label.erase(0, label.find(' ') + 1);
+  return label;
 }
 
 std::string curve_plots(const Response& response) {
@@ -205,7 +188,8 @@ std::string curve_plots(const Response& response) {
   text += scale_of_one("y", response) + "set ylabel " +
           plot::gnuplot_quoted(output_label(response.output)) + "\n";
   if (response.along)
-    text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) + " left\n";
+    text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) +
+            " left font ',12'\n";
   std::vector<std::string> plots;
   for (const std::size_t j : chosen(count)) {
     if (!std::isfinite(ends({&grid.values[j * width], width}).low)) continue;  // gnuplot complains

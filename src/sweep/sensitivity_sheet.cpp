@@ -58,7 +58,8 @@ std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
   if (outputs.empty()) return std::nullopt;
   const std::size_t factors = outputs.front().size();
   std::size_t longest = 0;
-  for (const auto& row : outputs.front()) longest = std::max(longest, row.factor.size());
+  for (const auto& row : outputs.front())
+    longest = std::max(longest, plot::key_label(row.factor).size());
   const int panel = 34 + 38 * static_cast<int>(factors);
   const int height = 105 + panel * static_cast<int>(outputs.size());
   const double margin = std::min(0.5, 0.04 + 0.0148 * static_cast<double>(longest));
@@ -77,7 +78,7 @@ std::optional<plot::Sheet> sensitivity_sheet(const sweep::Sensitivity& found,
   for (const auto& rows : outputs) {
     std::vector<std::string> tics;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      tics.push_back(plot::gnuplot_quoted(rows[i].factor) + " " +
+      tics.push_back(plot::gnuplot_quoted(plot::key_label(rows[i].factor)) + " " +
                      number_text(-static_cast<double>(i)));
     const bool last = &rows == &outputs.back();
     text += std::string("set format x '") + (last ? "%.10g" : "") + "'\n";

@@ -207,9 +207,33 @@ TEST(ScenePicture, follows_slides_one_after_the_other) {
   EXPECT_EQ(occurrences(svg, ">20 mm<"), 1U);
 }
 
+// Between plates there is no finger: five arrows stand on the top, with what they are.
+TEST(ScenePicture, shows_the_load_between_plates) {
+  ScenePicture picture = flat();
+  picture.finger.clear();
+  const std::string without = scene_svg(picture, "");
+  picture.load = "1 kPa";
+  const std::string svg = scene_svg(picture, "");
+  EXPECT_EQ(occurrences(svg, ">1 kPa<"), 1U);
+  EXPECT_EQ(occurrences(svg, "z\" stroke=\"none\""),
+            occurrences(without, "z\" stroke=\"none\"") + 5U);
+  EXPECT_NE(scene_view(picture, "").html().find("the arrows are the load, 1 kPa."),
+            std::string::npos);
+}
+
+// The page gives ground and ink, which it finds by these classes.
+TEST(ScenePicture, takes_the_colours_of_a_page) {
+  const std::string svg = scene_svg(flat(), "");
+  EXPECT_EQ(occurrences(svg, "<rect class=\"back\""), 1U);
+  EXPECT_EQ(occurrences(svg, "class=\"halo\""), 1U);
+  EXPECT_EQ(occurrences(svg, "<g class=\"ink\""), 3U) << "numbers, arrow with axes, legend";
+  EXPECT_EQ(occurrences(svg, "<g fill=\"#222\""), 1U) << "slides stand before the body";
+  EXPECT_EQ(scene_view(flat(), "").html().find("class=\"white\""), std::string::npos);
+}
+
 TEST(ScenePicture, text_is_safe_in_xml) {
   const std::string svg = scene_svg(flat(), "a < b & c\n\x01");
-  EXPECT_EQ(occurrences(svg, "a &lt; b &amp; c  <"), 2U);
+  EXPECT_EQ(occurrences(svg, "a &lt; b &amp; c\n <"), 2U);
   EXPECT_EQ(svg.find('\x01'), std::string::npos);
 }
 
