@@ -568,9 +568,10 @@ double quantity_of(const std::string& option, const std::string& text, const Uni
 
 double positive_of(const std::string& option, const std::string& text, const Unit& unit) {
   const double value = quantity_of(option, text, unit);
-  if (!(value > 0.0))
-    refuse("`" + option + "` is `" + text + "`; give a " + unit.quantity + " above 0");
-  return value;
+  if (value > 0.0) return value;
+  const bool vowel = std::string_view("aeiou").find(unit.quantity[0]) != std::string_view::npos;
+  refuse("`" + option + "` is `" + text + "`; give " + (vowel ? "an " : "a ") + unit.quantity +
+         " above 0");
 }
 
 int worker_count(int jobs) {

@@ -41,7 +41,7 @@ figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
   #scene-still text { font-size: 1.8em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
 #scene-still .back { fill: none; } #scene-still .ink { fill: var(--ink); }
 #scene-still .ink[stroke] { stroke: var(--ink); } #scene-still .border { stroke: var(--soft); }
-#scene-still .halo { stroke: var(--back); }
+#scene-still .halo { fill: var(--ink); stroke: var(--back); }
 @media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); }
   .map svg g[shape-rendering="crispEdges"] { filter: invert(1) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
@@ -58,7 +58,7 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards figure svg { max-height: 15rem; } .cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards figure svg { max-height: 22rem; } .cards .plot text { font-size: 1.4em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .result td:last-child { white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }

@@ -27,7 +27,7 @@ using Colour = std::array<double, 3>;  // red, green, blue, 0 to 255
 
 constexpr double width = 800.0, height = 640.0;  // px, of the page
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-constexpr double margin = 60.0, head = 100.0, closest_point = 90.0;
+constexpr double margin = 60.0, head = 100.0, foot = 40.0;  // px
 
 // Colours by region: those of skin, muscle and bone, then others.
 constexpr std::array<Colour, 6> palette{{{236, 188, 160},
@@ -97,9 +97,9 @@ View fitting(const ScenePicture& picture, const SceneFrame& frame) {
   Vec3 at = picture.touch;
   for (const Vec3& slide : picture.slides) take(at += slide, 0.0);
   view.scale = std::min((width - 2.0 * margin) / (most_right - left),
-                        (height - head - closest_point) / (top - bottom));
+                        (height - head - foot) / (top - bottom));
   view.left = 0.5 * (left + most_right - width / view.scale);
-  view.top = 0.5 * (top + bottom + (height + head - closest_point) / view.scale);
+  view.top = 0.5 * (top + bottom + (height + head - foot) / view.scale);
   return view;
 }
 
@@ -159,7 +159,8 @@ std::string label(const Point& at, const std::string& attributes, const std::str
 }
 
 // Of letters that may stand before a body.
-constexpr const char* halo = " stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"";
+constexpr const char* halo =
+    " class=\"halo\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"";
 
 std::string mm_text(double metres) { return rounded_text(unit::mm.from_si(metres), 3) + " mm"; }
 
@@ -256,38 +257,8 @@ std::string press(const ScenePicture& picture, const View& view) {
   };
   const Point tail = back(before + 43.0);
   return arrow(tail, back(before + 5.0), 12.0) +
-         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)},
-               std::string(" class=\"halo\"") + halo, mm_text(picture.travel));
-}
-
-// Its length is 1, 2 or 5 times a power of ten: the longest that is at most 160 px.
-std::string scale_bar(const View& view) {
-  double length = 1e-6;  // m
-  for (const double next : {2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5,
-                            2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0}) {
-    if (length * next * view.scale > 160.0) break;
-    length *= next;
-  }
-  const double left = margin, right_end = margin + view.scale * length, y = height - 36.0;
-  const auto tick = [&](double x) { return "M" + px(x) + " " + px(y - 5.0) + "v10"; };
-  return "<path d=\"" + tick(left) + tick(right_end) + "M" + px(left) + " " + px(y) + "H" +
-         px(right_end) + "\" fill=\"none\"/>\n" +
-         label({0.5 * (left + right_end), y - 10.0}, " stroke=\"none\" text-anchor=\"middle\"",
-               mm_text(length));
-}
-
-std::string axes(const ScenePicture& picture, const View& view) {
-  constexpr double length = 34.0;  // px, of an axis parallel to the page
-  const Point origin{width - 100.0, height - 48.0};
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 along = picture.axes.col(axis);
-    const double x = along.dot(view.right), y = -along.dot(view.up);
-    text += arrow(origin, {origin.x + length * x, origin.y + length * y}, 7.0);
-    text += label({origin.x + (length + 10.0) * x, origin.y + (length + 10.0) * y + 4.5},
-                  " stroke=\"none\" text-anchor=\"middle\"", axis_names[as_index(axis)]);
-  }
-  return text;
+         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)}, halo,
+               mm_text(picture.travel));
 }
 
 std::string lines(const std::vector<std::array<Vec3, 2>>& edges, const View& view,
@@ -457,7 +428,6 @@ std::string scene_svg(const ScenePicture& picture, const std::string& title) {
   const std::string size = "width=\"" + px(width) + "\" height=\"" + px(height) + "\"";
   // What stands before the body is dark on every page.
   const std::string before = "<g fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n";
-  const std::string ink = "<g class=\"ink\" fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n";
   std::string text =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(width) + " " + px(height) +
       "\" " + size + " font-family=\"sans-serif\" font-size=\"14\">\n<title>" + escaped(title) +
@@ -467,12 +437,11 @@ std::string scene_svg(const ScenePicture& picture, const std::string& title) {
       slides(picture, view) + "</g>\n";
   if (!picture.finger.empty())
     text += "<g fill=\"url(#ball)\" stroke=\"#4a5666\" stroke-width=\"0.8\">\n" +
-            finger(picture, view) + "</g>\n";
+            finger(picture, view) +
+            "</g>\n<g class=\"ink\" fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n" +
+            press(picture, view) + "</g>\n";
   if (!picture.load.empty()) text += before + load(picture, view) + "</g>\n";
-  text += ink;
-  if (!picture.finger.empty()) text += press(picture, view);
-  text += scale_bar(view) + axes(picture, view) + "</g>\n<g class=\"ink\" fill=\"#222\">\n" +
-          label({margin, 40.0}, " font-size=\"18\"", title);
+  text += "<g class=\"ink\" fill=\"#222\">\n" + label({margin, 40.0}, " font-size=\"18\"", title);
   return text + legend(picture) + "</g>\n</svg>\n";
 }
 

@@ -211,7 +211,7 @@ TEST_F(FitVerb, options_of_the_models) {
   EXPECT_EQ(refusal("hertz", {"--radius", "11 kPa", "--poisson", "0.4"}),
             "palpate: `--radius` wants a length, got `11 kPa`, a pressure; write it as `11 mm`\n");
   EXPECT_EQ(refusal("hertz", {"--radius", "0 mm", "--poisson", "0.4"}),
-            "palpate: `--radius` is `0 mm`; give a value above 0\n");
+            "palpate: `--radius` is `0 mm`; give a length above 0\n");
   EXPECT_EQ(refusal("layer", {"--radius", "11 mm", "--poisson", "0.4", "--thickness", "9 mm",
                               "--base", "glued"}),
             "palpate: `--base` does not know `glued`; it is one of bonded, frictionless\n");
