@@ -382,7 +382,8 @@ class Explanation {
     if (scene_.specimen)
       text += std::string("; measured by `") +
               word(scenario::words::curvature_methods, contact.curvature) + "` over " +
-              count_text(as_index(contact.curvature_rings), "ring") + " of vertices, " +
+              std::to_string(contact.curvature_rings) +
+              (contact.curvature_rings == 1 ? " ring" : " rings") + " of vertices, " +
               (contact.curvature_on == scenario::Contact::CurvatureOn::rest ? "at rest"
                                                                             : "as deformed");
     line(text);

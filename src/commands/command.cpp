@@ -9,6 +9,15 @@
 namespace palpate::commands {
 namespace {
 
+// CLI11 writes a type with its checks, `TEXT:{constant,relative}` or `INT:INT in [1 - 8]`.
+std::string value_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto open = type.find('{');
+  if (open == std::string::npos) return type.substr(0, type.find(':'));
+  const std::string words = type.substr(open + 1, type.find('}') - open - 1);
+  return joined(split(words, ','), "|");
+}
+
 Argument argument(const CLI::Option& option) {
   Argument read;
   if (option.get_positional()) {
@@ -17,10 +26,7 @@ Argument argument(const CLI::Option& option) {
     for (const std::string& name : option.get_lnames()) read.names.push_back("--" + name);
     for (const std::string& name : option.get_snames()) read.names.push_back("-" + name);
   }
-  if (option.get_items_expected_max() > 0) {
-    const std::string type = option.get_type_name();  // with its checks, `INT:INT in [1 - 8]`
-    read.value = type.substr(0, type.find(':'));
-  }
+  if (option.get_items_expected_max() > 0) read.value = value_of(option);
   read.meaning = option.get_description();
   read.fallback = option.get_default_str();
   read.required = option.get_required();
