@@ -104,7 +104,7 @@ function look(page, width, frame) {
     if (!i.hasAttribute("alt")) say(page, "has a picture without words");
     if (!i.naturalWidth) say(page, "has a picture that cannot be decoded");
   }
-  for (const s of all(".plot svg, .white svg")) {
+  for (const s of all(".plot svg, #scene-still svg")) {
     const box = s.getBoundingClientRect();
     if (!box.width || s.closest("details")) continue;
     if (box.right > width) say(page, "has a figure that is cut at " + width + " px");

@@ -1,15 +1,32 @@
-// The options of every verb, for parsing and help.
-#include "cli/options.h"
+// The options of every verb, and the parser that writes them into the struct of their verb.
+#include "cli/arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <tuple>
 
+#include "base/error.h"
+#include "base/text.h"
+#include "commands/complete.h"
+#include "commands/wrong_words.h"
 #include "device/link.h"
 #include "fit/regression.h"
 #include "report/export.h"
+#include "report/manifest.h"
+#include "scenario/family.h"
 #include "scenario/schema.h"
 
 namespace palpate::cli {
 namespace {
+
+// An option whose value is one of these words.
+CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& words) {
+  return option->type_name(joined(words, "|"))->check(CLI::IsMember(words).description(""));
+}
 
 void add_settings(CLI::App& verb, std::vector<std::string>& settings) {
   verb.add_option("--set", settings, "Set a key")->type_name("KEY=VALUE")->allow_extra_args(false);
@@ -27,8 +44,9 @@ void add_jobs(CLI::App& verb, int& jobs) {
 
 void add_check_options(CLI::App& verb, CheckOptions& options) {
   verb.add_option("--junit", options.junit, "Also write JUnit XML into this file");
-  verb.add_option("--annotations", options.annotations, "Also say differences to a forge: github")
-      ->check(CLI::IsMember({"github"}));
+  one_of(verb.add_option("--annotations", options.annotations,
+                         "Also say differences to a forge: github"),
+         {"github"});
 }
 
 // Options on the layout of a measured file, for every verb that reads one.
@@ -60,16 +78,6 @@ void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--case", data.case_name, "Only rows with this value in the column `case`");
 }
 
-// The words that an option may have, for its help and for shells; its verb checks them.
-template <class Words>
-std::string any_of(const Words& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : "|") + std::string(word);
-  return text;
-}
-
-}  // namespace
-
 // Below, one overload per verb.
 
 void add_options(CLI::App& verb, Run& run) {
@@ -98,9 +106,7 @@ void add_options(CLI::App& verb, Run& run) {
   beside(verb.add_option("--seconds", device.seconds, "End after this time, s")
              ->check(CLI::Range(0.001, 1e6)));
   // Hidden, for tests: a virtual clock follows the emulator.
-  beside(verb.add_option("--clock", device.clock)
-             ->check(CLI::IsMember({"real", "virtual"}))
-             ->group(""));
+  beside(one_of(verb.add_option("--clock", device.clock), {"real", "virtual"})->group(""));
 }
 
 void add_options(CLI::App& verb, Explain& explain) {
@@ -114,8 +120,9 @@ void add_options(CLI::App& verb, Explain& explain) {
 }
 
 void add_options(CLI::App& verb, Fit& fit) {
-  std::vector<std::string> models(further_models.begin(), further_models.end());
+  std::vector<std::string> models;
   for (const fit::ModelInfo& model : fit::models()) models.emplace_back(model.name);
+  models.insert(models.end(), further_models.begin(), further_models.end());
   verb.add_option("data", fit.data, "CSV or other tables in text; `-` is the standard input")
       ->required();
   verb.add_option("--out", fit.out, "Folder for the rows, the population and its figure")
@@ -123,17 +130,17 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_flag("--force", fit.force, "Replace that folder");
   add_data(verb, fit.columns);
   verb.add_flag("--csv", fit.csv, "CSV on a terminal too, where else a table stands");
-  verb.add_option("--model", fit.model, "Curve")->required()->type_name(any_of(models));
+  one_of(verb.add_option("--model", fit.model, "Curve")->required(), models);
   verb.add_option("--origin", fit.x_origin,
                   "Subtracted from every x; of times, default: where the step is");
   verb.add_option("--radius", fit.radius, "contact models: of the sphere or punch, as \"11 mm\"");
-  verb.add_option("--tip", fit.tip, "hertz: default paraboloid")
-      ->type_name("paraboloid|sphere|cone|pyramid3|pyramid4|punch");
+  one_of(verb.add_option("--tip", fit.tip, "hertz: default paraboloid"),
+         {"paraboloid", "sphere", "cone", "pyramid3", "pyramid4", "punch"});
   verb.add_option("--half-angle", fit.half_angle,
                   "hertz: between axis and face of a cone or pyramid, as \"20 deg\"");
-  verb.add_option("--baseline", fit.baseline,
-                  "hertz, layer: default: what the rows before contact allow")
-      ->type_name("none|offset|tilt");
+  one_of(verb.add_option("--baseline", fit.baseline,
+                         "hertz, layer: default: what the rows before contact allow"),
+         {"none", "offset", "tilt"});
   verb.add_option("--baseline-from", fit.baseline_from,
                   "the same: rows before contact count from this x on, as \"0.1 mm\"");
   verb.add_option("--baseline-to", fit.baseline_to, "the same: and up to this x");
@@ -148,17 +155,17 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_option("--height", fit.height, "modulus, neo_hookean, ogden: of the specimen");
   verb.add_option("--diameter", fit.diameter, "the same: of a round specimen");
   verb.add_option("--area", fit.area, "the same: of the cross-section, as \"300 mm^2\"");
-  verb.add_option("--platens", fit.platens, "the same: default slippery")
-      ->type_name("slippery|bonded");
+  one_of(verb.add_option("--platens", fit.platens, "the same: default slippery"),
+         {"slippery", "bonded"});
   verb.add_option("--cycle", fit.cycle, "the same: which of several loadings, from 1")
       ->check(CLI::Range(1, 100000));
   verb.add_flag("--toe", fit.toe, "the same: count from where the line through the stress begins");
-  verb.add_option("--loading", fit.loading, "the same: default by the signs")
-      ->type_name("compression|tension");
+  one_of(verb.add_option("--loading", fit.loading, "the same: default by the signs"),
+         {"compression", "tension"});
   verb.add_option("--poisson", fit.poisson_ratio, "contact models: Poisson's ratio")
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
-  verb.add_option("--base", fit.base, "layer: default bonded")->type_name("bonded|frictionless");
+  one_of(verb.add_option("--base", fit.base, "layer: default bonded"), {"bonded", "frictionless"});
   verb.add_option("--terms", fit.terms,
                   "prony: number of relaxation times; above 5 they are spaced in their logarithm")
       ->check(CLI::Range(1, 60));
@@ -242,7 +249,7 @@ void add_options(CLI::App& verb, Convert& convert) {
   std::vector<std::string> formats;
   for (const report::ExportFormat& format : report::export_formats())
     formats.emplace_back(format.name);
-  verb.add_option("--to", convert.format, "Format")->type_name(any_of(formats))->group(of_results);
+  one_of(verb.add_option("--to", convert.format, "Format"), formats)->group(of_results);
   verb.add_option("--case", convert.case_name, "Only this case")->group(of_results);
 }
 
@@ -353,9 +360,9 @@ void add_options(CLI::App& verb, Identify& identify) {
   add_data(verb, identify.columns);
   verb.add_option("--origin", identify.x_origin,
                   "Subtracted from every x: where the loading history begins");
-  verb.add_option("--noise", identify.noise, "Noise of the measurement")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"constant", "relative"}));
+  one_of(verb.add_option("--noise", identify.noise, "Noise of the measurement"),
+         {"constant", "relative"})
+      ->capture_default_str();
   verb.add_option("--unknown", identify.unknowns, "Unknown with its range, KEY=LOW..HIGH")
       ->required()
       ->type_name("KEY=VALUE")
@@ -388,10 +395,7 @@ void add_options(CLI::App& all, Device& device) {
 void add_options(CLI::App& verb, New& starter) {
   std::vector<std::string> kinds;
   for (const scenario::Starter& one : scenario::starters()) kinds.emplace_back(one.word.word);
-  verb.add_option("kind", starter.kind, "What is computed")
-      ->required()
-      ->type_name("")
-      ->check(CLI::IsMember(kinds));
+  one_of(verb.add_option("kind", starter.kind, "What is computed")->required(), kinds);
   verb.add_option("file", starter.file,
                   "File to write, default KIND.toml; `-` is the standard output");
   verb.add_flag("--force", starter.force, "Replace the file");
@@ -404,18 +408,210 @@ void add_options(CLI::App& verb, Open& open) {
 }
 
 void add_options(CLI::App& verb, Manual& manual) {
-  verb.add_option("page", manual.page, "Keys of scenarios, or verbs and options")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"keys", "commands"}));
+  one_of(verb.add_option("page", manual.page, "Keys of scenarios, or verbs and options"),
+         {"keys", "commands"})
+      ->capture_default_str();
   verb.add_flag("--man", manual.man, "As a man page");
 }
 
 void add_options(CLI::App&, Schema&) {}
 
 void add_options(CLI::App& verb, Completion& completion) {
-  verb.add_option("shell", completion.shell, "The shell")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  one_of(verb.add_option("shell", completion.shell, "The shell")->required(),
+         {"bash", "zsh", "fish"});
+}
+
+// The structs of all verbs, into which CLI11 writes the options.
+template <class Variant>
+struct CommandsOf;
+template <class... Kinds>
+struct CommandsOf<std::variant<Kinds...>> {
+  std::tuple<Kinds...> each;
+};
+
+struct Listed {
+  std::string_view verb, group, example;
+};
+constexpr const char* scenarios = "Scenarios";
+constexpr const char* agreement = "Agreement";
+constexpr const char* measured = "Measured curves";
+constexpr const char* judging = "Judging the model";
+constexpr const char* files = "Files";
+constexpr const char* installers = "For installers";
+// The group of each verb in the help, and one call.
+constexpr std::array<Listed, 18> listed{
+    {{"new", scenarios, "palpate new press"},
+     {"explain", scenarios, "palpate explain contact.viscosity"},
+     {"run", scenarios, "palpate run quickstart --set \"step.1.to=3 mm\""},
+     {"sweep", "Many cases", "palpate sweep plan sweep.toml"},
+     {"compare", agreement, "palpate compare out/press other/press"},
+     {"golden", agreement, "palpate golden check"},
+     {"data", measured, "palpate data measured.txt --x-unit um"},
+     {"fit", measured, "palpate fit measured.csv --model hertz --radius \"11 mm\" --poisson 0.45"},
+     {"identify", measured,
+      "palpate identify measured.csv press.toml --unknown \"tissue.young_modulus=1..500 kPa\""},
+     {"device", measured, "palpate device probe mark10:/dev/ttyUSB0"},
+     {"chart", judging, "palpate chart press.toml"},
+     {"stability", judging, "palpate stability press.toml"},
+     {"reference", judging, "palpate reference press.toml --out truth"},
+     {"convert", files, "palpate convert leg.stl --unit mm --edge \"3 mm\" --out leg.vtu"},
+     {"open", files, "palpate open out/press"},
+     {"manual", installers, "palpate manual keys --man"},
+     {"schema", installers, "palpate schema > palpate.schema.json"},
+     {"completion", installers, "palpate completion bash"}}};
+
+// Of the verbs within verbs.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> inner_examples{
+    {{"sweep plan", "sweep.toml"},
+     {"sweep run", "out/sweep_sweep --jobs 4"},
+     {"sweep status", "out/sweep_sweep"},
+     {"sweep retry", "out/sweep_sweep"},
+     {"sweep merge", "out/sweep_sweep"},
+     {"sweep parts", "out/sweep_sweep --of 8 | parallel"},
+     {"sweep slurm", "out/sweep_sweep --chunk 20 --time 01:00:00"},
+     {"golden add", "press.toml"},
+     {"golden check", "scenarios --junit golden.xml"},
+     {"golden list", "scenarios"},
+     {"device probe", "mark10:/dev/ttyUSB0"},
+     {"device monitor", "mark10:/dev/ttyUSB0 --seconds 5"},
+     {"device stop", "mark10:/dev/ttyUSB0"}}};
+
+void add_inner_examples(CLI::App& verb) {
+  for (CLI::App* inner : verb.get_subcommands([](const CLI::App*) { return true; }))
+    for (const auto& [words, rest] : inner_examples)
+      if (words == verb.get_name() + " " + inner->get_name())
+        inner->footer("Example: palpate " + std::string(words) + " " + std::string(rest));
+}
+
+const Listed& listing(std::string_view verb) {
+  return *std::find_if(listed.begin(), listed.end(),
+                       [&](const Listed& one) { return one.verb == verb; });
+}
+
+// What a word that was a verb is called now.
+std::optional<std::string> renamed(const std::vector<std::string>& given) {
+  const std::string two = given.front() + (given.size() > 1 ? " " + given[1] : "");
+  for (const auto& [old, now] : {std::pair{"mesh", "convert"},
+                                 {"export", "convert"},
+                                 {"report", "open"},
+                                 {"bench", "chart --frames 1000"},
+                                 {"golden bless", "golden add --force --reason TEXT"}})
+    if (given.front() == old || two == old)
+      return "`palpate " + std::string(old) + "` is `palpate " + now + "` now";
+  return std::nullopt;
+}
+
+constexpr const char* welcome =
+    "palpate presses a virtual finger into virtual soft tissue, and says the force and its error.\n"
+    "\n"
+    "  palpate run quickstart     a first press, with a page of its results\n"
+    "  palpate new press          a commented scenario of your own, press.toml\n"
+    "  palpate --help             all verbs; `palpate help VERB` shows one\n";
+
+struct Parser {
+  CLI::App app{"Batch mechanical testing of virtual soft tissue.", "palpate"};
+  Arguments arguments;
+  CommandsOf<Verb> commands;
+
+  Parser() {
+    app.require_subcommand(1);
+    app.fallthrough();
+    app.set_version_flag("--version,-V", "palpate " + report::this_build().version);
+    app.add_flag("--quiet,-q", arguments.manner.quiet, "Only errors on stderr");
+    app.add_flag("--no-color", arguments.manner.no_colour, "No colours, as with NO_COLOR set");
+    app.add_flag("--json", arguments.manner.json, "JSON on stdout, one object per line");
+    app.add_flag("--csv", arguments.manner.csv, "CSV on a terminal too, where else tables stand");
+    app.footer(
+        "Exit codes: 0 good, 1 internal, 2 bad input, 3 comparison differs, 4 diverged, 5 mesh,\n"
+        "6 device link, 7 sweep incomplete, 8 part run elsewhere, 75 interrupted, resumable, 130 "
+        "interrupted.\n"
+        "Data go to stdout, messages to stderr.");
+    // For its place in lists: parse() reads `help VERB` as `VERB --help`.
+    app.add_subcommand("help", "Print the help of a verb")
+        ->group("Help")
+        ->add_option_function<std::vector<std::string>>(
+            "verb", [](const std::vector<std::string>&) {}, "The verb; none: a list of all");
+    for_each_command([&](auto& command) {
+      CLI::App& verb = *app.add_subcommand(command.word.word, command.word.meaning);
+      add_options(verb, command);
+      verb.group(std::string(listing(command.word.word).group));
+      verb.footer("Example: " + std::string(listing(command.word.word).example));
+      add_inner_examples(verb);
+    });
+  }
+
+  template <class Use>
+  void for_each_command(const Use& use) {
+    std::apply([&](auto&... command) { (use(command), ...); }, commands.each);
+  }
+
+  Verb chosen() {
+    std::optional<Verb> verb;
+    for_each_command([&](auto& command) {
+      if (app.got_subcommand(command.word.word)) verb = command;
+    });
+    return *verb;  // the parser requires one
+  }
+};
+
+}  // namespace
+
+double quantity_of(const std::string& option, const std::string& text, const Unit& unit,
+                   const std::string& or_else) {
+  try {
+    return parse_quantity(text, unit);
+  } catch (const std::invalid_argument& wrong) {
+    refuse("`" + option + "` " + wrong.what() + or_else);
+  }
+}
+
+double positive_of(const std::string& option, const std::string& text, const Unit& unit) {
+  const double value = quantity_of(option, text, unit);
+  if (value > 0.0) return value;
+  const bool vowel = std::string_view("aeiou").find(unit.quantity[0]) != std::string_view::npos;
+  refuse("`" + option + "` is `" + text + "`; give " + (vowel ? "an " : "a ") + unit.quantity +
+         " above 0");
+}
+
+int worker_count(int jobs) {
+  return jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+commands::Command described() { return commands::describe(Parser().app); }
+
+std::variant<Arguments, UsageError, Answer> parse(const std::vector<std::string>& given) {
+  std::vector<std::string> arguments = given;
+  if (!given.empty() && given.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  } else if (!given.empty() && given.front() == "complete") {  // asked by the scripts of shells
+    const std::vector<std::string> words(given.begin() + 1, given.end());
+    return Answer{
+        commands::complete(described(), words, scenario::settable_keys(), scenario::examples())};
+  }
+  if (given.empty()) return Answer{welcome};
+  if (const auto now = renamed(arguments)) return UsageError{*now};
+  Parser parser;
+  if (const auto wrong = commands::wrong_word(parser.app, arguments)) return UsageError{*wrong};
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  try {
+    parser.app.parse(reversed);
+  } catch (const CLI::CallForVersion&) {
+    return Answer{parser.app.version() + "\n"};
+  } catch (const CLI::CallForHelp&) {
+    const CLI::App* asked = &parser.app;
+    std::string command;
+    while (!asked->get_subcommands().empty()) {
+      command += (command.empty() ? "" : " ") + asked->get_name();
+      asked = asked->get_subcommands().front();
+    }
+    return Answer{asked->help(command)};
+  } catch (const CLI::ParseError& error) {
+    return UsageError{commands::sentence(parser.app, error)};
+  }
+  parser.arguments.given = arguments;
+  parser.arguments.verb = parser.chosen();
+  return parser.arguments;
 }
 
 }  // namespace palpate::cli

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/fields.h"
+#include "base/units.h"
 #include "commands/command.h"
 #include "measured/measured.h"
 
@@ -253,6 +254,13 @@ struct UsageError {
 struct Answer {
   std::string text;
 };
+
+// The SI value of an option's text, of any sign or above 0. Throws InputError with the option's
+// name; `or_else` ends the sentence.
+[[nodiscard]] double quantity_of(const std::string& option, const std::string& text,
+                                 const Unit& unit, const std::string& or_else = "");
+[[nodiscard]] double positive_of(const std::string& option, const std::string& text,
+                                 const Unit& unit);
 
 // The number of workers for `--jobs`; 0: one per core.
 [[nodiscard]] int worker_count(int jobs);

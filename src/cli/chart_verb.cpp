@@ -94,7 +94,9 @@ void add_headline(page::Page& page, const chart::CaseChart& chart) {
   const chart::Verdict verdict = chart::judge(chart);
   const auto& best = verdict.cheapest_within ? verdict.cheapest_within : verdict.nearest;
   if (!best) return;
-  page.headline(chart.rows[*best].variant.name,
+  const chart::Measurement& row = chart.rows[*best];
+  const bool told = row.model.empty() || row.variant.name.find(row.model) != std::string::npos;
+  page.headline(row.variant.name + (told ? "" : " (" + row.model + ")"),
                 "± " + percent_text(verdict.error[*best]) + ", " +
                     rounded_text(verdict.cost[*best], 2) + " µs per simulated ms: " +
                     (verdict.cheapest_within ? "the cheapest within" : "the nearest to") +

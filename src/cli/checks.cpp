@@ -10,14 +10,13 @@
 namespace palpate::cli {
 namespace {
 
-// Differences, then a line of what is equal; of several checks, those that differ only.
+// The comparison in a line, then its differences; of several checks, those that differ only.
 std::string text_of(const compare::Check& check, bool headed, const Talk& talk) {
   if (!check.error.empty()) return "";  // said on stderr
-  if (headed && check.equal()) return "";
-  return (headed ? one_line(check.name) + ": DIFFERS\n" : "") +
-         (check.one_file ? compare::comparison_text(check.comparison.files.front().comparison)
-                         : compare::comparison_text(check.comparison)) +
-         (talk.quiet() ? "" : compare::equal_text(check.comparison));
+  if (check.equal() && (headed || talk.quiet())) return "";
+  return (headed ? one_line(check.name) + ": " : "") +
+         (headed || !talk.quiet() ? compare::headline(check.comparison) + "\n" : "") +
+         compare::difference_lines(check.comparison);
 }
 
 // The table of the check, with its name in a first column if there are several.

@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
+#include "base/written.h"
 #include "cli/checks.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
@@ -50,11 +51,7 @@ Names names_of(const Compare& command) {
   return {joined(got, "/"), joined(want, "/"), both};
 }
 
-// A column of a file and where its values differ most.
-struct Told {
-  std::string file;
-  const compare::ColumnComparison* column = nullptr;
-};
+using compare::Item;
 
 std::string where_text(const compare::ColumnComparison& column) {
   if (!column.worst) return compare::verdict_text(column);
@@ -63,11 +60,11 @@ std::string where_text(const compare::ColumnComparison& column) {
          (worst.case_name.empty() ? "" : ", case " + worst.case_name);
 }
 
-record::Table table_of(const std::vector<Told>& told, const Names& names) {
+record::Table table_of(const std::vector<Item>& items, const Names& names) {
   record::Table table{
       {"column", names.got, names.want, "difference", "where most", "rows", "allowed"}, {}};
-  for (const Told& one : told) {
-    const compare::ColumnComparison& column = *one.column;
+  for (const Item& item : items) {
+    const compare::ColumnComparison& column = *item.column;
     std::vector<record::Cell> row(table.columns.size());
     row[0] = column.name;
     row[4] = where_text(column);
@@ -84,13 +81,10 @@ record::Table table_of(const std::vector<Told>& told, const Names& names) {
 }
 
 // The results that differ, at most eight; of files without results, the first columns.
-page::Markup first_table(std::vector<Told> differing, const Names& names) {
+page::Markup first_table(std::vector<Item> differing, const Names& names) {
   constexpr std::size_t most = 8;
-  const auto rank = [](const Told& one) { return compare::rank_of(*one.column); };
-  std::stable_sort(differing.begin(), differing.end(),
-                   [&](const Told& a, const Told& b) { return rank(a) < rank(b); });
-  const auto rest = std::find_if(differing.begin(), differing.end(), [&](const Told& one) {
-    return rank(one) > compare::last_result_rank;
+  const auto rest = std::find_if(differing.begin(), differing.end(), [](const Item& one) {
+    return one.rank > compare::last_result_rank;
   });
   if (rest != differing.begin()) differing.erase(rest, differing.end());
   if (differing.size() > most) differing.resize(most);
@@ -103,26 +97,17 @@ page::Markup first_table(std::vector<Told> differing, const Names& names) {
       table);
 }
 
-// All columns, file by file.
-page::Markup all_tables(const std::vector<Told>& told, const Names& names) {
+// These columns file by file.
+page::Markup all_tables(const compare::FolderComparison& comparison, const std::vector<Item>& items,
+                        const Names& names) {
   page::Markup all;
-  for (std::size_t i = 0; i < told.size();) {
-    std::vector<Told> of_file;
-    const std::string file = told[i].file;
-    for (; i < told.size() && told[i].file == file; ++i) of_file.push_back(told[i]);
-    all += page::table(file, table_of(of_file, names));
+  for (const compare::FileComparison& file : comparison.files) {
+    std::vector<Item> of_file;
+    for (const Item& item : items)
+      if (item.file == file.file) of_file.push_back(item);
+    if (!of_file.empty()) all += page::table(file.file, table_of(of_file, names));
   }
   return all;
-}
-
-// The column of a file that differs first by rank_of(); without a difference, the first curve.
-const compare::ColumnComparison* told_first(const compare::FileComparison& file) {
-  const compare::ColumnComparison* first = nullptr;
-  for (const compare::ColumnComparison& column : file.comparison.columns)
-    if (column.worst && !column.equal() &&
-        (first == nullptr || compare::rank_of(column) < compare::rank_of(*first)))
-      first = &column;
-  return first;
 }
 
 // Whether the rows of every case have another value of the column than the row before.
@@ -152,12 +137,13 @@ std::string axis_label(const std::string& column) {
   return sweep::output_label(column == "travel_mm" ? "displacement_mm" : column);
 }
 
-// The curve of both results in one figure: what was got as a line, what is wanted dashed.
+// The curve of both results in one figure: what was got as a line, what is wanted dashed. `first`
+// is the column that differs, null if none does.
 std::optional<plot::Figure> overlay(const std::string& got, const std::string& want,
-                                    const compare::FileComparison& file, const Names& sides) {
+                                    const compare::FileComparison& file, const Names& sides,
+                                    const compare::ColumnComparison* first) {
   const record::Table left = record::read_csv(got), right = record::read_csv(want);
   const auto both = [&](const char* name) { return left.find(name) >= 0 && right.find(name) >= 0; };
-  const compare::ColumnComparison* first = told_first(file);
   std::string y = first != nullptr && !first->worst->x_name.empty() ? first->name : "";
   for (const char* curve : {"force_N", "strain", "stress_kPa"})
     if (y.empty() && both(curve)) y = curve;
@@ -200,18 +186,29 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
   return figure;
 }
 
+std::vector<Item> columns_that_differ(const compare::FolderComparison& comparison) {
+  std::vector<Item> items = compare::differences(comparison);
+  std::erase_if(items, [](const Item& item) { return item.column == nullptr; });
+  return items;
+}
+
 // The overlays of all files, drawn in a folder beside the page that is gone afterwards.
 page::Markup overlays(const Compare& command, const compare::FolderComparison& comparison,
                       const Names& names, const Talk& talk) {
   const bool folders = fs::is_directory(command.want);
   const std::string folder = command.report + ".partial";
   page::Markup all;
+  const std::vector<Item> differing = columns_that_differ(comparison);
   for (const compare::FileComparison& file : comparison.files) {
     if (file.state != compare::FileComparison::State::compared) continue;
     const auto at = [&](const std::string& root) {
       return folders ? root + "/" + file.file : root;
     };
-    const auto figure = overlay(at(command.got), at(command.want), file, names);
+    const auto first = std::find_if(differing.begin(), differing.end(), [&](const Item& item) {
+      return item.file == file.file && item.column->worst;
+    });
+    const auto figure = overlay(at(command.got), at(command.want), file, names,
+                                first == differing.end() ? nullptr : first->column);
     if (!figure) continue;
     make_folders(folder);
     const plot::Drawing drawing = plot::draw(plot::sheet_of(*figure), folder);
@@ -244,26 +241,17 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
   page::Page page(
       (names.both.empty() ? "" : names.both + ": ") + names.got + " compared with " + names.want,
       "comparison");
-  std::vector<Told> differing, agreeing;
+  const std::vector<Item> differing = columns_that_differ(comparison);
   std::vector<std::string> alone;
-  const compare::ColumnComparison* worst = nullptr;
-  for (const compare::FileComparison& file : comparison.files) {
-    if (file.state != compare::FileComparison::State::compared) {
-      alone.push_back("`" + file.file + "`: " + compare::verdict_text(file.state));
-      continue;
-    }
-    if (!file.comparison.rows_equal())
-      alone.push_back("`" + file.file + "` has " + std::to_string(file.comparison.rows_got) +
-                      " rows in " + names.got + " and " +
-                      std::to_string(file.comparison.rows_want) + " in " + names.want);
-    for (const compare::ColumnComparison& column : file.comparison.columns)
-      (column.equal() ? agreeing : differing).push_back({file.file, &column});
-    const compare::ColumnComparison* first = told_first(file);
-    if (first != nullptr &&
-        (worst == nullptr || compare::rank_of(*first) < compare::rank_of(*worst)))
-      worst = first;
-  }
+  for (const Item& item : compare::differences(comparison))
+    if (item.column == nullptr)
+      alone.push_back("`" + item.file + "`, " + item.name + ": " + item.text);
+  std::vector<Item> agreeing = compare::items_of(comparison);
+  std::erase_if(agreeing, [](const Item& item) { return item.state == Item::State::failed; });
   const std::size_t all = differing.size() + agreeing.size();
+  const auto first = std::find_if(differing.begin(), differing.end(),
+                                  [](const Item& item) { return item.column->worst.has_value(); });
+  const compare::ColumnComparison* worst = first == differing.end() ? nullptr : first->column;
   if (comparison.equal()) {
     page.headline("Agrees", "in all " + std::to_string(all) + " columns");
   } else if (worst == nullptr) {
@@ -282,8 +270,7 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
       page.headline("Differs", "in " + worst->name);
     page.answer({std::to_string(differing.size()) + " of " + std::to_string(all) +
                  " columns differ by more than the tolerances, `" + worst->name + "` in " +
-                 std::to_string(worst->differing) + (worst->differing == 1 ? " row" : " rows") +
-                 "; most" +
+                 count_text(worst->differing, "row") + "; most" +
                  (row.x_name.empty() ? "" : " at " + row.x_name + " " + cell_text(row.x)) +
                  ", where it is " + cell_text(row.got) + " in " + names.got + " and " +
                  cell_text(row.want) + " in " + names.want + "."});
@@ -292,8 +279,8 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
   page.section("Curves", overlays(command, comparison, names, talk));
   page.section("What differs", first_table(differing, names));
   constexpr auto folded = page::Page::Shown::folded;
-  page.section("All columns that differ", all_tables(differing, names), folded);
-  page.section("All columns that agree", all_tables(agreeing, names), folded);
+  page.section("All columns that differ", all_tables(comparison, differing, names), folded);
+  page.section("All columns that agree", all_tables(comparison, agreeing, names), folded);
   make_folders(fs::path(command.report).parent_path().string());
   write_atomically(command.report, page.html());
 }
@@ -325,7 +312,11 @@ int perform(const Compare& command, const Arguments&, const Talk& talk) {
                                                       one_table(name, command.want), tolerances)}};
   report_checks(checks, command.options, talk);
   if (!command.report.empty()) write_page(command, checks.front().comparison, talk);
-  return checks.front().equal() ? exit_good : exit_different;
+  if (checks.front().equal()) return exit_good;
+  if (command.report.empty())
+    talk.next("compare", command.got,
+              " " + shown_word(command.want) + " --report differences.html");
+  return exit_different;
 }
 
 }  // namespace palpate::cli

@@ -109,17 +109,6 @@ double unit_of(const std::string& symbol) {
   }
 }
 
-double edge_length(const std::string& text) {
-  double edge = 0.0;
-  try {
-    edge = parse_quantity(text, unit::mm);
-  } catch (const std::invalid_argument& error) {
-    refuse(std::string("`--edge` ") + error.what());
-  }
-  if (!(edge > 0.0)) refuse("`--edge` must be above 0 mm, got `" + text + "`; write it as `3 mm`");
-  return edge;
-}
-
 bool is_surface_file(const std::string& out) {
   return ending_of(out) == ".off" || ending_of(out) == ".stl";
 }
@@ -161,7 +150,7 @@ void check_outputs(const Convert& command, Kind kind) {
 geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
   set_doing({"repair of the surface", 0, 2});
   meshing::Target target{.nodes = command.nodes};
-  if (!command.edge.empty()) target.edge_length = edge_length(command.edge);
+  if (!command.edge.empty()) target.edge_length = positive_of("--edge", command.edge, unit::mm);
   meshing::RepairOrder order{.unit = command.unit};
   if (command.repair_up_to) order.most_missing = *command.repair_up_to;
   auto [surface, mended, part] = meshing::whole_surface(
@@ -301,17 +290,6 @@ void write(const std::string& out, const geometry::TetMesh& mesh) {
     meshing::write_node_ele(out, mesh);
 }
 
-const report::ExportFormat& format_of(const std::string& name) {
-  std::vector<std::string> known;
-  for (const report::ExportFormat& one : report::export_formats()) {
-    if (one.name == name) return one;
-    known.emplace_back(one.name);
-  }
-  const auto near = nearest(name, known);
-  refuse("`--to` does not know `" + name + "`" +
-         (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
-}
-
 // The file of the curves in a result folder, or the file itself.
 std::string curve_file_of(const std::string& result) {
   if (!fs::is_directory(result)) return result;
@@ -367,7 +345,9 @@ std::string file_name(const std::string& name) {
 
 int write_results(const Convert& command, const Talk& talk) {
   const std::string out = command.out.empty() ? "." : command.out.front();
-  const report::ExportFormat& format = format_of(command.format);
+  const auto formats = report::export_formats();
+  const report::ExportFormat& format = *std::find_if(
+      formats.begin(), formats.end(), [&](const auto& one) { return one.name == command.format; });
   const std::string file = curve_file_of(command.subject);
   std::vector<report::ExportCurve> curves =
       report::export_curves(record::read_csv(file), name_of(command.subject));

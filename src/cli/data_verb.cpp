@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "base/numerics.h"
 #include "base/text.h"
+#include "base/written.h"
 #include "cli/fit_models.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
@@ -151,14 +152,14 @@ bool is_straight(const measured::MeasuredCurve& curve, double scatter) {
 // whose height is unknown. Empty: nothing. Ogden's law has one parameter more.
 std::string compressed_law(const measured::MeasuredCurve& curve, double scatter) {
   const std::size_t stride = 1 + curve.x.size() / 1000;  // the shape is that of fewer rows, too
-  std::vector<double> travel, force;
+  std::vector<double> displacement, force;
   for (std::size_t i = 0; i < curve.x.size(); i += stride) {
-    travel.push_back(curve.x[i]);
+    displacement.push_back(curve.x[i]);
     force.push_back(curve.y[i]);
   }
-  const double deepest = *std::max_element(travel.begin(), travel.end());
+  const double deepest = *std::max_element(displacement.begin(), displacement.end());
   const auto left = [&](Uniaxial law, double most) {
-    std::vector<double> strain = travel;
+    std::vector<double> strain = displacement;
     for (double& each : strain) each *= most / deepest;
     return left_by(strain, force, {.model = law, .loading = Loading::compression});
   };
@@ -342,8 +343,7 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
   const RawTable table =
       measured::raw_table(read_text(command.data), command.data, command.columns);
   std::string text = command.data + ": " + form_of(table) + ", " +
-                     std::to_string(table.rows.size()) +
-                     (table.rows.size() == 1 ? " row" : " rows") + " from line " +
+                     count_text(table.rows.size(), "row") + " from line " +
                      std::to_string(table.rows.front().line) + " to " +
                      std::to_string(table.rows.back().line) + "\n";
   talk.event("table", {{"file", command.data},

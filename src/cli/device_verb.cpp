@@ -198,6 +198,7 @@ int perform(const Device& command, const Arguments&, const Talk& talk) {
                 "; check that the device is switched on and its cable is plugged in");
     return exit_device;
   }
+  talk.next(monitor ? "run SCENARIO --device" : "device monitor", command.link);
   return exit_good;
 }
 

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "base/vec3.h"
+#include "base/written.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "page/page.h"
@@ -421,7 +422,7 @@ class Explanation {
       line("  surface      " + specimen.warning);
     if (const auto& refined = specimen.refined; refined && refined->rounds > 0)
       line("  refined      from " + std::to_string(refined->start_nodes) + " nodes in " +
-           std::to_string(refined->rounds) + (refined->rounds == 1 ? " round" : " rounds") +
+           count_text(as_index(refined->rounds), "round") +
            ", where the error in the force comes from, " +
            (refined->error <= refined->wanted ? "until it is below " + percent_text(refined->wanted)
                                               : "as far as `tissue.mesh.most_nodes` allows"));

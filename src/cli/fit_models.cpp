@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+#include <span>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -21,21 +21,21 @@
 namespace palpate::cli {
 namespace {
 
-constexpr std::array tips{"paraboloid", "sphere", "cone", "pyramid3", "pyramid4", "punch"};
+using Models = std::span<const std::string_view>;
+constexpr auto contact_models = std::to_array<std::string_view>(
+    {"hertz", "layer", "jkr", "dmt", "adhesive", "hertz_power_law", "hertz_solid"});
+constexpr Models elastic_models = Models(contact_models).first(2);
+constexpr Models adhesive_models = Models(contact_models).subspan(2, 3);
+constexpr Models viscous_models = Models(contact_models).last(2);
+constexpr auto uniaxial_models =
+    std::to_array<std::string_view>({"modulus", "neo_hookean", "ogden", "yeoh", "ogden3"});
+constexpr auto series_models = std::to_array<std::string_view>({"prony", "prony_creep"});
 
-contact::LayerBase base_of(const std::string& word) {
-  if (word.empty() || word == "bonded") return contact::LayerBase::bonded;
-  if (word == "frictionless") return contact::LayerBase::frictionless;
-  refuse("`--base` does not know `" + word + "`; it is bonded or frictionless");
+bool is_one_of(std::string_view word, Models words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
-
-fit::Tip::Kind tip_of(const std::string& word) {
-  if (word.empty()) return fit::Tip::Kind::paraboloid;
-  if (const auto found = fit::find_tip(word)) return *found;
-  const std::vector<std::string> known(tips.begin(), tips.end());
-  const auto near = nearest(word, known);
-  refuse("`--tip` does not know `" + word + "`" +
-         (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return is_one_of(word, Models(words.begin(), words.size()));
 }
 
 // `20`, `20 deg` or `20 degrees`, in rad.
@@ -51,55 +51,42 @@ double angle_of(const std::string& text) {
 
 fit::ContactTest::BaselineChoice baseline_of(const std::string& word) {
   using Choice = fit::ContactTest::BaselineChoice;
-  if (word.empty() || word == "auto") return Choice::automatic;
-  if (word == "none") return Choice::none;
-  if (word == "offset") return Choice::offset;
-  if (word == "tilt") return Choice::tilt;
-  refuse("`--baseline` does not know `" + word + "`; it is none, offset, tilt or auto");
+  return word == "none"     ? Choice::none
+         : word == "offset" ? Choice::offset
+         : word == "tilt"   ? Choice::tilt
+                            : Choice::automatic;
 }
 
-// `0.1 mm`, or a share as `10 %` or `0.1`.
-std::optional<fit::DepthLimit> limit_of(const std::string& option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
+// A share, as `10 %` or `0.1`; nothing for another text.
+std::optional<double> share_of(const std::string& text) {
   const auto number = leading_number(text);
   const std::string unit = number ? trimmed(number->rest) : "";
-  if (number && (unit.empty() || unit == "%")) {
-    const double share = unit.empty() ? number->value : number->value / 100.0;
-    if (!(share >= 0.0 && share <= 1.0))
+  if (!number || !(unit.empty() || unit == "%")) return std::nullopt;
+  return unit.empty() ? number->value : number->value / 100.0;
+}
+
+// `0.1 mm`, or a share.
+std::optional<fit::DepthLimit> limit_of(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  if (const auto share = share_of(text)) {
+    if (!(*share >= 0.0 && *share <= 1.0))
       refuse("`" + option + "` is `" + text +
              "`; give a share from 0 to 100 %, or a depth as `1 mm`");
-    return fit::DepthLimit{share, true};
+    return fit::DepthLimit{*share, true};
   }
-  try {
-    const double depth = parse_quantity(text, unit::mm);
-    if (depth < 0.0) refuse("`" + option + "` is `" + text + "`; give a depth of 0 or more");
-    return fit::DepthLimit{depth, false};
-  } catch (const std::invalid_argument& wrong) {
-    refuse("`" + option + "` " + wrong.what() + ", or as `10 %`");
-  }
+  const double depth = quantity_of(option, text, unit::mm, ", or as `10 %`");
+  if (depth < 0.0) refuse("`" + option + "` is `" + text + "`; give a depth of 0 or more");
+  return fit::DepthLimit{depth, false};
 }
 
 // A place on the axis of x, of any sign.
 std::optional<double> place_of(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  try {
-    return parse_quantity(text, unit::mm);
-  } catch (const std::invalid_argument& wrong) {
-    refuse("`" + option + "` " + wrong.what());
-  }
+  return quantity_of(option, text, unit::mm);
 }
 
-}  // namespace
-
 double length_of(const std::string& option, const std::string& text) {
-  double size = 0.0;
-  try {
-    size = parse_quantity(text, unit::mm);
-  } catch (const std::invalid_argument& wrong) {
-    refuse("`" + option + "` " + wrong.what());
-  }
-  if (!(size > 0.0)) refuse("`" + option + "` is `" + text + "`; give a length above 0");
-  return size;
+  return positive_of(option, text, unit::mm);
 }
 
 fit::AdhesiveTest adhesive_test(const Fit& command) {
@@ -110,10 +97,12 @@ fit::AdhesiveTest adhesive_test(const Fit& command) {
   return test;
 }
 
+// The test that the options describe. Throws InputError for a tip without its size, and for options
+// that contradict each other.
 fit::ContactTest contact_test(const Fit& command) {
   fit::ContactTest test;
   test.poisson_ratio = command.poisson_ratio;
-  test.tip = tip_of(command.tip);
+  test.tip = fit::find_tip(command.tip).value_or(fit::Tip::Kind::paraboloid);
   const std::string tip(fit::word(test.tip));
   if (fit::Tip{test.tip}.has_angle()) {
     if (command.half_angle.empty())
@@ -129,18 +118,12 @@ fit::ContactTest contact_test(const Fit& command) {
       refuse("`--half-angle` is not used by the tip `" + tip + "`; leave it out");
     test.radius = length_of("--radius", command.radius);
   }
-  test.base = base_of(command.base);
-  const bool hertz = command.model == "hertz";
-  if (!hertz && command.model != "layer" && test.tip != fit::Tip::Kind::paraboloid)
+  if (command.base == "frictionless") test.base = contact::LayerBase::frictionless;
+  if (command.model != "hertz" && test.tip != fit::Tip::Kind::paraboloid)
     refuse("the model `" + command.model + "` knows no tip but `paraboloid`; leave `--tip` out");
-  if (!hertz && command.model != "layer" && command.baseline == "tilt" &&
-      command.model.starts_with("hertz_"))
+  if (command.baseline == "tilt" && is_one_of(command.model, viscous_models))
     refuse("the model `" + command.model + "` knows no tilt; give `--baseline offset`");
-  if (command.model == "layer") {
-    if (test.tip != fit::Tip::Kind::paraboloid)
-      refuse("the model `layer` knows no tip but `paraboloid`; leave `--tip` out");
-    test.thickness = length_of("--thickness", command.thickness);
-  }
+  if (command.model == "layer") test.thickness = length_of("--thickness", command.thickness);
   test.baseline = baseline_of(command.baseline);
   test.from = limit_of("--from", command.from);
   test.to = limit_of("--to", command.to);
@@ -153,51 +136,35 @@ fit::ContactTest contact_test(const Fit& command) {
     refuse("`--baseline-from` is not below `--baseline-to`; give a range of x");
   test.contact_point = place_of("--contact-point", command.contact_point);
   const std::string& segment = command.columns.segment;
-  const bool adhesive =
-      command.model == "jkr" || command.model == "dmt" || command.model == "adhesive";
-  if (segment == "retract" || (adhesive && segment.empty())) test.way = fit::Way::retract;
-  if (segment == "all" && !adhesive) test.way = fit::Way::all;
+  const bool sticks = is_one_of(command.model, adhesive_models);
+  if (segment == "retract" || (sticks && segment.empty())) test.way = fit::Way::retract;
+  if (segment == "all" && !sticks) test.way = fit::Way::all;
   test.residuals = fit::Residuals::correlated;
   return test;
 }
-
-namespace {
 
 constexpr Unit mm2{"mm^2", "area", {1, 1e6, {2, 0, 0}}};
 
 double area_of(const Fit& command) {
   if (!command.area.empty() && !command.diameter.empty())
     refuse("`--area` and `--diameter` both give the cross-section; leave one of them out");
-  if (!command.diameter.empty()) {
-    const double diameter = length_of("--diameter", command.diameter);
-    return std::numbers::pi / 4.0 * diameter * diameter;
-  }
-  double area = 0.0;
-  try {
-    area = parse_quantity(command.area, mm2);
-  } catch (const std::invalid_argument& wrong) {
-    refuse("`--area` " + std::string(wrong.what()));
-  }
-  if (!(area > 0.0)) refuse("`--area` is `" + command.area + "`; give an area above 0");
-  return area;
+  if (command.diameter.empty()) return positive_of("--area", command.area, mm2);
+  const double diameter = length_of("--diameter", command.diameter);
+  return std::numbers::pi / 4.0 * diameter * diameter;
 }
 
-// A strain, as `10 %` or `0.1`.
 std::optional<double> strain_of(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  const auto number = leading_number(text);
-  const std::string unit = number ? trimmed(number->rest) : "";
-  if (!number || !(unit.empty() || unit == "%"))
+  const auto strain = share_of(text);
+  if (!strain)
     refuse("`" + option + "` wants a strain, got `" + text + "`; write it as `10 %` or `0.1`");
-  return unit == "%" ? number->value / 100.0 : number->value;
+  return strain;
 }
 
 fit::UniaxialTest::Loading loading_of(const Fit& command, const measured::MeasuredCurve& curve) {
   using Loading = fit::UniaxialTest::Loading;
   if (command.loading == "compression") return Loading::compression;
   if (command.loading == "tension") return Loading::tension;
-  if (!command.loading.empty())
-    refuse("`--loading` does not know `" + command.loading + "`; it is compression or tension");
   // A load that was turned because it is negative in compression.
   const bool turned = std::any_of(curve.notes.begin(), curve.notes.end(), [](const auto& note) {
     return note.find("negative in compression") != std::string::npos;
@@ -305,8 +272,6 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
           "of its loaded to its free surface");
     test.shape_factor =
         length_of("--diameter", command.diameter) / (4.0 * length_of("--height", command.height));
-  } else if (!command.platens.empty() && command.platens != "slippery") {
-    refuse("`--platens` does not know `" + command.platens + "`; it is slippery or bonded");
   }
   std::vector<std::string> notes;
   take_nominal(curve, strain, stress, test.loading == fit::UniaxialTest::Loading::compression,
@@ -317,80 +282,63 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
   return result;
 }
 
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
+}  // namespace
 
-void check_model(const std::string& name) {
-  std::vector<std::string> known;
-  for (const fit::ModelInfo& one : fit::models()) known.emplace_back(one.name);
-  known.insert(known.end(), further_models.begin(), further_models.end());
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  const auto near = nearest(name, known);
-  refuse("`--model` does not know `" + name + "`" +
-         (near ? "; did you mean `" + *near + "`?" : "; it is one of " + joined(known, ", ")));
-}
-
-// Refuses options that the model does not use, and a model without its required options.
-void check_options(const Fit& command) {
+void check_fit(const Fit& command) {
   struct Option {
-    const char* name;
+    std::string name;
     bool given;
-    std::initializer_list<std::string_view> models;
-    bool required;
-    const char* example;
+    Models models;
+    std::string example = {};  // of an option that these models require
   };
-  const std::initializer_list<std::string_view> uniaxial{"modulus", "neo_hookean", "ogden", "yeoh",
-                                                         "ogden3"};
-  const std::initializer_list<std::string_view> contact{
-      "hertz", "layer", "jkr", "dmt", "adhesive", "hertz_power_law", "hertz_solid"};
-  const std::initializer_list<std::string_view> viscous{"hertz_power_law", "hertz_solid"};
-  const std::initializer_list<std::string_view> adhesive{"jkr", "dmt", "adhesive"};
-  const std::initializer_list<std::string_view> part{"hertz", "layer", "modulus", "neo_hookean",
-                                                     "ogden", "yeoh",  "ogden3"};
-  const std::initializer_list<std::string_view> ramps{"prony", "prony_creep",
-                                                      "standard_linear_solid"};
+  constexpr auto part = std::to_array<std::string_view>(
+      {"hertz", "layer", "modulus", "neo_hookean", "ogden", "yeoh", "ogden3"});
+  constexpr auto ramps =
+      std::to_array<std::string_view>({"prony", "prony_creep", "standard_linear_solid"});
+  constexpr Models hertz = elastic_models.first(1), layer = elastic_models.last(1);
   for (const Option& option :
-       {Option{"--radius", !command.radius.empty(), contact, false, "\"11 mm\""},
-        Option{"--tip", !command.tip.empty(), contact, false, "sphere"},
-        Option{"--half-angle", !command.half_angle.empty(), {"hertz"}, false, "\"20 deg\""},
-        Option{"--baseline", !command.baseline.empty(), contact, false, "offset"},
-        Option{"--baseline-from", !command.baseline_from.empty(), {"hertz", "layer"}, false, ""},
-        Option{"--baseline-to", !command.baseline_to.empty(), {"hertz", "layer"}, false, ""},
-        Option{"--contact-point", !command.contact_point.empty(), {"hertz", "layer"}, false, ""},
-        Option{"--time", !command.time.empty(), viscous, true, "time"},
-        Option{"--atoms", !command.atoms.empty(), adhesive, false, "\"0.3 nm\""},
-        Option{"--liquid", command.liquid, {"prony", "prony_creep"}, false, ""},
-        Option{"--from", !command.from.empty(), part, false, "\"10 %\""},
-        Option{"--to", !command.to.empty(), part, false, "\"50 %\""},
-        Option{"--height", !command.height.empty(), uniaxial, false, "\"10 mm\""},
-        Option{"--diameter", !command.diameter.empty(), uniaxial, false, "\"20 mm\""},
-        Option{"--area", !command.area.empty(), uniaxial, false, "\"300 mm^2\""},
-        Option{"--platens", !command.platens.empty(), uniaxial, false, "bonded"},
-        Option{"--loading", !command.loading.empty(), uniaxial, false, "compression"},
-        Option{"--cycle", command.cycle > 0, uniaxial, false, "1"},
-        Option{"--toe", command.toe, uniaxial, false, ""},
-        Option{"--poisson", command.poisson_ratio >= 0, contact, true, "0.45"},
-        Option{"--thickness", !command.thickness.empty(), {"layer"}, true, "\"5 mm\""},
-        Option{"--base", !command.base.empty(), {"layer"}, false, "bonded"},
-        Option{"--ramp", command.ramp.has_value(), ramps, false, "0.5"},
-        Option{"--history", !command.history.empty(), {"prony", "prony_creep"}, false, "strain"},
-        Option{"--history-power", command.history_power > 0, {"prony", "prony_creep"}, false, "1"},
-        Option{"--terms", command.terms > 0, {"prony", "prony_creep"}, true, "2"}}) {
+       {Option{"--radius", !command.radius.empty(), contact_models},
+        Option{"--tip", !command.tip.empty(), contact_models},
+        Option{"--half-angle", !command.half_angle.empty(), hertz},
+        Option{"--baseline", !command.baseline.empty(), contact_models},
+        Option{"--baseline-from", !command.baseline_from.empty(), elastic_models},
+        Option{"--baseline-to", !command.baseline_to.empty(), elastic_models},
+        Option{"--contact-point", !command.contact_point.empty(), elastic_models},
+        Option{"--time", !command.time.empty(), viscous_models, "time"},
+        Option{"--atoms", !command.atoms.empty(), adhesive_models},
+        Option{"--liquid", command.liquid, series_models},
+        Option{"--from", !command.from.empty(), part},
+        Option{"--to", !command.to.empty(), part},
+        Option{"--height", !command.height.empty(), uniaxial_models},
+        Option{"--diameter", !command.diameter.empty(), uniaxial_models},
+        Option{"--area", !command.area.empty(), uniaxial_models},
+        Option{"--platens", !command.platens.empty(), uniaxial_models},
+        Option{"--loading", !command.loading.empty(), uniaxial_models},
+        Option{"--cycle", command.cycle > 0, uniaxial_models},
+        Option{"--toe", command.toe, uniaxial_models},
+        Option{"--poisson", command.poisson_ratio >= 0, contact_models, "0.45"},
+        Option{"--thickness", !command.thickness.empty(), layer, "\"5 mm\""},
+        Option{"--base", !command.base.empty(), layer},
+        Option{"--ramp", command.ramp.has_value(), ramps},
+        Option{"--history", !command.history.empty(), series_models},
+        Option{"--history-power", command.history_power > 0, series_models},
+        Option{"--terms", command.terms > 0, series_models, "2"}}) {
     const bool fits = is_one_of(command.model, option.models);
     if (option.given && !fits)
-      refuse("`" + std::string(option.name) + "` is not used by the model `" + command.model +
+      refuse("`" + option.name + "` is not used by the model `" + command.model +
              "`; leave it out");
-    if (!option.given && fits && option.required)
+    if (!option.given && fits && !option.example.empty())
       refuse("the model `" + command.model + "` wants `" + option.name + "`; write it as `" +
              option.name + " " + option.example + "`");
   }
-  if (command.x_origin && is_one_of(command.model, contact))
+  if (command.x_origin && is_one_of(command.model, contact_models))
     refuse("`--origin` is not used by the model `" + command.model +
            "`, which fits the contact point; leave it out");
-  if (command.x_origin && is_one_of(command.model, uniaxial))
+  if (command.x_origin && is_one_of(command.model, uniaxial_models))
     refuse("`--origin` is not used by the model `" + command.model + "`; leave it out");
 }
+
+namespace {
 
 void check_axis(const measured::MeasuredCurve& curve, const measured::MeasuredAxis& axis,
                 const Unit& wanted, const std::string& option) {
@@ -412,11 +360,11 @@ fit::Fit contact_fit(const Fit& command, const measured::MeasuredCurve& curve) {
   check_axis(curve, curve.x_axis, unit::mm, "--x");
   check_axis(curve, curve.y_axis, unit::N, "--y");
   fit::ContactTest test = contact_test(command);
-  if (is_one_of(command.model, {"hertz", "layer"})) {
+  if (is_one_of(command.model, elastic_models)) {
     test.bending = curve.bending;
     return fit::fit_contact(curve.x, curve.y, test);
   }
-  if (is_one_of(command.model, {"jkr", "dmt", "adhesive"}))
+  if (is_one_of(command.model, adhesive_models))
     return fit::fit_adhesive(curve.x, curve.y, test, adhesive_test(command));
   const measured::MeasuredColumn& time = curve.beside.front();
   if (!(time.axis.dimension == unit::s.dimension))
@@ -617,11 +565,8 @@ fit::Fit fitted_over_time(const Fit& command, const measured::MeasuredCurve& who
 }
 
 fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
-  if (is_one_of(command.model,
-                {"hertz", "layer", "jkr", "dmt", "adhesive", "hertz_power_law", "hertz_solid"}))
-    return contact_fit(command, curve);
-  if (is_one_of(command.model, {"modulus", "neo_hookean", "ogden", "yeoh", "ogden3"}))
-    return uniaxial_fit(command, curve);
+  if (is_one_of(command.model, contact_models)) return contact_fit(command, curve);
+  if (is_one_of(command.model, uniaxial_models)) return uniaxial_fit(command, curve);
   return fitted_over_time(command, curve);
 }
 
@@ -645,15 +590,10 @@ void refuse_unconverged(const fit::Fit& result) {
 
 }  // namespace
 
-void check_fit(const Fit& command) {
-  check_model(command.model);
-  check_options(command);
-}
-
 FittedCurve fit_curve(const Fit& command, const std::string& path) {
   DataOptions columns = command.columns;
   columns.blanks = DataOptions::Blanks::keep;  // the fit counts all points that it excludes
-  if (is_one_of(command.model, {"jkr", "dmt", "adhesive"})) columns.usual = "retract";
+  if (is_one_of(command.model, adhesive_models)) columns.usual = "retract";
   if (is_one_of(command.model,
                 {"prony", "standard_linear_solid", "spring_pot", "fractional_zener"}))
     columns.curve = DataOptions::Curve::relaxation;

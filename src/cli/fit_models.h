@@ -12,15 +12,6 @@
 
 namespace palpate::cli {
 
-// A length above 0 from an option's text, m. Throws InputError.
-[[nodiscard]] double length_of(const std::string& option, const std::string& text);
-
-[[nodiscard]] fit::AdhesiveTest adhesive_test(const Fit& command);
-
-// The test that the options describe. Throws InputError for unknown words, for a tip without its
-// size, and for options that contradict each other.
-[[nodiscard]] fit::ContactTest contact_test(const Fit& command);
-
 // The x of a curve as strain, where it is a stretch, and what the options, the names of the columns
 // or the signs tell of the loading.
 struct Strained {
@@ -29,8 +20,8 @@ struct Strained {
 };
 [[nodiscard]] Strained strained(const Fit& command, const measured::MeasuredCurve& curve);
 
-// Refuses unknown models, options that the model does not use, and models without their required
-// options. Throws InputError.
+// Refuses options that the model does not use, and models without their required options. Throws
+// InputError.
 void check_fit(const Fit& command);
 
 struct FittedCurve {

@@ -19,6 +19,7 @@
 #include "plot/gnuplot.h"
 #include "record/csv.h"
 #include "record/table.h"
+#include "report/run_page.h"
 
 namespace palpate::cli {
 namespace {
@@ -211,6 +212,7 @@ void write_folder(const Fit& command, const record::Table& rows, const record::T
   }
   const std::string missing = warn_all(folder.put(WholeFolder::State::complete, warnings), talk);
   talk.say(folder.path() + ": curves.csv, population.csv, population.svg" + missing);
+  talk.next("open", folder.path());
 }
 
 // Fits every curve of the command, prints one row per curve (failures with their reasons) and says
@@ -270,18 +272,19 @@ std::string table_for_people(const fit::Fit& result) {
   std::string text;
   for (const fit::Estimate& one : result.parameters) {
     text += one.name + std::string(width - one.name.size() + 2, ' ') +
-            rounded_text(one.estimate, 5) + (one.unit.empty() ? "" : " " + one.unit);
+            report::warranted_text(one.estimate, one.ci95_low, one.ci95_high) +
+            (one.unit.empty() ? "" : " " + one.unit);
     if (std::isfinite(one.ci95_low) && is_exact(result))
       text += "  (exact to rounding)";
     else if (std::isfinite(one.ci95_low))
-      text += "  (95 %: " + rounded_text(one.ci95_low, 5) + " to " +
-              rounded_text(one.ci95_high, 5) + ")";
+      text += "  (95 %: " + report::warranted_text(one.ci95_low, one.ci95_low, one.ci95_high) +
+              " to " + report::warranted_text(one.ci95_high, one.ci95_low, one.ci95_high) + ")";
     text += "\n";
   }
   const std::string law =
       result.name.empty() ? std::string(fit::info(result.model).formula) : result.law;
-  return text + law + "\n" + std::to_string(result.n) + " points, R^2 " +
-         rounded_text(result.r2, 6) + "\n";
+  return text + law + "\n" + std::to_string(result.n) + " points, R^2 " + rounded_text(result.r2) +
+         "\n";
 }
 
 }  // namespace
@@ -298,6 +301,9 @@ int perform(const Fit& command, const Arguments&, const Talk& talk) {
   else
     print(table_for_people(fitted.fit));
   say_what_is_odd(fitted.fit, talk);
+  if (command.model == "hertz" || command.model == "layer")
+    talk.next("identify", command.data.front(),
+              " SCENARIO --unknown \"tissue.young_modulus=LOW..HIGH kPa\"");
   return exit_good;
 }
 

@@ -18,7 +18,7 @@
 #include "cli/program.h"
 #include "cli/table_text.h"
 #include "cli/verbs.h"
-#include "compare/compare_folders.h"
+#include "compare/compare.h"
 #include "fit/case_fits.h"
 #include "record/csv.h"
 #include "report/manifest.h"

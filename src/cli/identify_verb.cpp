@@ -121,21 +121,21 @@ std::string turn_compression(const scenario::Scenario& scenario, measured::Measu
          (load ? ", and that of `" + curve.y_axis.column + "`" : "");
 }
 
+// Adds notes, which are said once there is a result.
 identify::Measurement read_measurement(const Identify& command, const std::string& data,
-                                       const scenario::Scenario& scenario, const Talk& talk) {
+                                       const scenario::Scenario& scenario,
+                                       std::vector<std::string>& notes) {
   measured::MeasuredCurve curve = measured::read_measured(data, command.columns);
-  const std::string where = command.with.empty() ? "note: " : "note: " + data + ": ";
-  for (const std::string& note : curve.notes) talk.say(where + note);
+  std::vector<std::string> own = curve.notes;
   if (curve.guessed)
-    talk.say(where + "x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
+    own.push_back("x is `" + curve.x_axis.column + "` and y is `" + curve.y_axis.column + "`");
   if (curve.x_axis.stretch)
     for (double& each : curve.x) each -= 1.0;
-  if (const std::string turned = turn_compression(scenario, curve); !turned.empty())
-    talk.say(where + turned);
+  own.push_back(turn_compression(scenario, curve));
   std::vector<double> starts;
-  if (const std::string found = begin_with_programme(command, scenario, curve, starts);
-      !found.empty())
-    talk.say(where + found);
+  own.push_back(begin_with_programme(command, scenario, curve, starts));
+  for (const std::string& note : own)
+    if (!note.empty()) notes.push_back((command.with.empty() ? "" : data + ": ") + note);
   return {.x = std::move(curve.x),
           .y = std::move(curve.y),
           .x_name = curve.x_axis.column,
@@ -145,17 +145,19 @@ identify::Measurement read_measurement(const Identify& command, const std::strin
           .starts = std::move(starts)};
 }
 
-scenario::Family read_scenario(const Identify& command, const std::string& path, const Talk& talk) {
+scenario::Family read_scenario(const Identify& command, const std::string& path,
+                               std::vector<std::string>& notes) {
   scenario::Family family = scenario::read(path, command.settings);
-  const std::string where = command.with.empty() ? "note: " : "note: " + path + ": ";
-  for (const Problem& note : family.notes) talk.say("note: " + note.text());
+  const std::string where = command.with.empty() ? "" : path + ": ";
+  for (const Problem& note : family.notes) notes.push_back(note.text());
   if (family.cases.size() > 1)
-    talk.say(where + "only the first of " + std::to_string(family.cases.size()) +
-             " cases is fitted, " + family.cases.front().name);
+    notes.push_back(where + "only the first of " + std::to_string(family.cases.size()) +
+                    " cases is fitted, " + family.cases.front().name);
   const scenario::Case& first = family.cases.front();
   if (first.scenario.finger.material != "rigid" && !first.scenario.uniform())
-    talk.say(where + "the finger is `" + first.scenario.finger.material +
-             "`, which gives way; set `finger.material = \"rigid\"` for a ball of metal or glass");
+    notes.push_back(
+        where + "the finger is `" + first.scenario.finger.material +
+        "`, which gives way; set `finger.material = \"rigid\"` for a ball of metal or glass");
   return family;
 }
 
@@ -178,6 +180,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   asked.insert(asked.end(), command.with.begin(), command.with.end());
   if (asked.size() > 1 && !command.givens.empty())
     refuse("`--given` widens the intervals of one measurement; leave it or `--with` out");
+  std::vector<std::string> notes;
   std::vector<scenario::Family> families;
   families.reserve(asked.size());
   std::vector<const scenario::Scenario*> scenarios;
@@ -187,7 +190,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
       throw InputError({data, 0, 0},
                        "is a scenario, and the measurement comes first; write `palpate identify " +
                            path + " " + data + "`");
-    families.push_back(read_scenario(command, path, talk));
+    families.push_back(read_scenario(command, path, notes));
     scenarios.push_back(&families.back().cases.front().scenario);
     files.push_back({data, &families.back()});
   }
@@ -206,7 +209,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   std::vector<identify::Pair> pairs;
   for (const identify::PairFiles& one : files) {
     measured.push_back(
-        read_measurement(command, one.measured, one.family->cases.front().scenario, talk));
+        read_measurement(command, one.measured, one.family->cases.front().scenario, notes));
     pairs.push_back({&measured.back(), one.family});
   }
   identify::IdentifyOptions options;
@@ -217,7 +220,8 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   identify::Identification found = identify::identify(pairs, unknowns, options);
   identify::carry_givens(found, measured.front(), family, givens, options.noise);
   ticker.reset();
-  for (const std::string& note : found.notes) talk.say("note: " + note);
+  notes.insert(notes.end(), found.notes.begin(), found.notes.end());
+  for (const std::string& note : notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
   const std::string missing = warn_all(
       identify::write_identification(found, files, {arguments.given, started}, folder), talk);

@@ -23,15 +23,6 @@
 namespace palpate::cli {
 namespace {
 
-// Reads a quantity. Throws InputError that names the option.
-double quantity(const std::string& option, const std::string& text, const Unit& unit) {
-  try {
-    return parse_quantity(text, unit);
-  } catch (const std::exception& error) {
-    throw InputError({option, 0, 0}, error.what());
-  }
-}
-
 live::LiveOptions options_of(const Run& command) {
   live::LiveOptions options;
   options.link = command.device.link;
@@ -40,12 +31,9 @@ live::LiveOptions options_of(const Run& command) {
   if (command.device.traffic) options.traffic = live::LiveOptions::Traffic::kept;
   if (command.device.clock == "virtual") options.clock = device::Clock::Kind::stepped;
   if (!command.device.surface.empty())
-    options.surface = quantity("--surface", command.device.surface, unit::mm);
-  if (!command.device.most_force.empty()) {
-    options.most_force = quantity("--max-force", command.device.most_force, unit::N);
-    if (!(*options.most_force > 0.0))
-      throw InputError({"--max-force", 0, 0}, "wants a force above 0; write it as `2 N`");
-  }
+    options.surface = quantity_of("--surface", command.device.surface, unit::mm);
+  if (!command.device.most_force.empty())
+    options.most_force = positive_of("--max-force", command.device.most_force, unit::N);
   if (command.device.seconds > 0.0) options.longest = command.device.seconds;
   return options;
 }
@@ -64,9 +52,9 @@ int code_of(live::LiveEnd::Why why) {
 // The scenario with the steps that the stand carried out, for `palpate identify`.
 std::string as_moved_text(scenario::Family family, std::vector<scenario::Step> steps) {
   family.base.steps = family.cases.front().scenario.steps = std::move(steps);
-  return "# The loading history as the stand carried it out, read from its travel: for `palpate "
-         "identify`, "
-         "with\n# `step.1.time`, the moment at which it set off, among the unknowns.\n" +
+  return "# The loading history as the stand carried it out, read from its displacement: for "
+         "`palpate identify`, with\n# `step.1.time`, the moment at which it set off, among the "
+         "unknowns.\n" +
          scenario::echo(family);
 }
 
@@ -153,6 +141,7 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
                         {"folder", folder.path()},
                         {"outcome", record::outcome_word(result.record.outcome)},
                         {"reason", result.record.reason}});
+  talk.next("open", folder.path());
   if (code != exit_good) Talk::error(ended + "; " + rows + " are kept");
   if (!result.verdict) return code;
   const std::string verdict = result.record.name + ": " + result.record.answer.verdict;

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "base/written.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
 #include "page/page.h"
@@ -131,12 +132,12 @@ std::string index_of(const fs::path& folder, const std::vector<std::string>& rep
     page.headline(std::to_string(verdicts[0]) + " of " + std::to_string(all),
                   "statements of the paper agree with these runs, " + std::to_string(verdicts[1]) +
                       " differ, and " + std::to_string(verdicts[2]) + " the text does not settle");
-  page.answer({std::to_string(reports.size()) + (reports.size() == 1 ? " report." : " reports.")});
+  const std::string count = count_text(reports.size(), "report");
+  page.answer({count + "."});
   if (!items.empty()) page.section("Reports", page::element("div", items, {{"class", "cards"}}));
   const std::string index = (folder / "index.html").string();
   write_atomically(index, page.html());
-  talk.say(index + ": " + std::to_string(reports.size()) +
-           (reports.size() == 1 ? " report" : " reports"));
+  talk.say(index + ": " + count);
   return index;
 }
 

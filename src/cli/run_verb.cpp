@@ -14,6 +14,7 @@
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "base/written.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
@@ -157,7 +158,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
     return record.outcome != record::Outcome::completed;
   });
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
-           std::to_string(scenes.size()) + (scenes.size() == 1 ? " case" : " cases") +
+           count_text(scenes.size(), "case") +
            (early == 0 ? "" : ", " + std::to_string(early) + " ended early") + ran.missing);
   talk.event("result", {{"scenario", family.name}, {"folder", folder.path()}});
   talk.next("open", folder.path());
@@ -166,9 +167,8 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
 
 // What a run would do, as far as the built scenes tell.
 void say_plan(const Prepared& prepared, const Talk& talk) {
-  const std::size_t count = prepared.scenes.size();
-  std::string text = prepared.folder->path() + ": " + std::to_string(count) +
-                     (count == 1 ? " case" : " cases") + " would be computed and written here\n";
+  std::string text = prepared.folder->path() + ": " + count_text(prepared.scenes.size(), "case") +
+                     " would be computed and written here\n";
   for (const scene::Scene& scene : prepared.scenes) {
     const std::string model = scenario::traits(scene.scenario.solver.model).word;
     const scene::Forecast* forecast = scene.choice.taken();

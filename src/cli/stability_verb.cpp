@@ -1,6 +1,5 @@
 // `palpate stability`: measures limits of the time step and failures, and compares with theory.
 #include <filesystem>
-#include <mutex>
 #include <optional>
 
 #include "base/stop_scope.h"
@@ -26,18 +25,10 @@ int perform(const Stability& command, const Arguments&, const Talk& talk) {
     talk.say("note: only the first of " + std::to_string(family.cases.size()) +
              " cases is mapped, " + one.name);
   const StopScope scope(listen_for_interrupts(exit_interrupted));
-  std::mutex telling;
-  std::string at;
-  std::size_t percent = 0;
-  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double seconds) {
-    const std::scoped_lock lock(telling);
-    return bar(percent, 100, seconds) + ", " + family.name + ", " + at;
-  });
+  std::optional<ProgressLine> ticker(std::in_place, talk, [&](double) { return family.name; });
   const stability::StabilityMap map =
-      stability::map_stability(one, family, [&](const std::string& what, double share) {
-        const std::scoped_lock lock(telling);
-        at = what;
-        percent = static_cast<std::size_t>(100.0 * share);
+      stability::map_stability(one, family, [](const std::string& what, double share) {
+        set_doing({what, static_cast<std::size_t>(100.0 * share), 100});
       });
   ticker.reset();
   const std::string missing = warn_all(stability::write_map(map, family.name, folder), talk);

@@ -17,6 +17,7 @@
 #include "base/index.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
+#include "base/written.h"
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -33,11 +34,6 @@
 
 namespace palpate::cli {
 namespace {
-
-// `1 case`, `2 cases`.
-std::string cases_text(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " case" : " cases");
-}
 
 using Json = nlohmann::ordered_json;
 
@@ -104,9 +100,8 @@ std::string status_text(const sweep::SweepTotals& totals, const sweep::SweepResu
     rows += file.rows;
   }
   for (const auto& [part, count] : parts)
-    text += "  " + part + ": " + std::to_string(count.second) +
-            (count.second == 1 ? " row in " : " rows in ") + std::to_string(count.first) +
-            (count.first == 1 ? " file\n" : " files\n");
+    text += "  " + part + ": " + count_text(count.second, "row") + " in " +
+            count_text(count.first, "file") + "\n";
   return text;
 }
 
@@ -146,7 +141,7 @@ LookedAt look_at(const sweep::SweepPlan& plan, const Sweep& command,
          .found = found,
          .answer = answer,
          .title = family.title,
-         .totals = std::to_string(totals.completed) + " of " + cases_text(totals.cases) +
+         .totals = std::to_string(totals.completed) + " of " + count_text(totals.cases, "case") +
                    " completed, " + std::to_string(totals.diverged + totals.failed) + " failed, " +
                    std::to_string(totals.missing) + " missing.",
          .scenario = family.inputs.front().content,
@@ -162,6 +157,11 @@ int sweep_status(const Sweep& command, const Talk& talk) {
   const sweep::SweepTotals totals = sweep::count_results(plan, results);
   print(talk.json() ? status_json(totals, results) : status_text(totals, results));
   for (const std::string& warning : results.warnings()) talk.warn(warning);
+  const bool failed = totals.diverged + totals.failed > 0;
+  talk.next(totals.missing > 0 ? "sweep run"
+            : failed           ? "sweep retry"
+                               : "sweep merge",
+            command.subject);
   return exit_of(totals, command);
 }
 
@@ -186,7 +186,7 @@ int sweep_merge(const Sweep& command, const Talk& talk) {
   const std::string undrawn = warn_all(
       folder.put(totals.missing == 0 ? State::complete : State::incomplete, looked.warnings), talk);
   std::string text = folder.path() + ": " + std::to_string(totals.completed) + " of " +
-                     cases_text(totals.cases) + " completed";
+                     count_text(totals.cases, "case") + " completed";
   if (totals.diverged + totals.failed > 0)
     text += ", " + std::to_string(totals.diverged + totals.failed) + " failed";
   if (totals.missing > 0)
@@ -413,7 +413,7 @@ int sweep_run(const Sweep& command, const Talk& talk) {
                       " has vanished while its cases ran, and their rows with it; plan anew");
   for (const std::string& warning : end.warnings) talk.warn(warning);
   std::string text = command.subject + ": " + std::to_string(end.completed) + " of " +
-                     cases_text(end.all) + " completed";
+                     count_text(end.all, "case") + " completed";
   if (end.failed > 0) text += ", " + std::to_string(end.failed) + " failed";
   if (end.missing > 0) text += ", " + std::to_string(end.missing) + " missing";
   talk.event("end", {{"all", end.all},
@@ -445,7 +445,7 @@ int sweep_plan(const Sweep& command, const Talk& talk) {
   if (command.yes) order.ceiling = sweep::SweepOrder::Ceiling::lifted;
   const sweep::Planned planned = sweep::plan_sweep(order);
   for (const Problem& note : planned.notes) talk.say("note: " + note.text());
-  const std::string cases = cases_text(planned.cases);
+  const std::string cases = count_text(planned.cases, "case");
   if (planned.there_already)
     talk.say(planned.folder + ": the same plan of " + cases + " is there already");
   else

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
+#include "base/written.h"
 #include "record/csv.h"
 
 namespace palpate::cli {
@@ -22,12 +23,6 @@ Json json_value(const record::Cell& cell) {
   if (std::abs(*number) < exact && *number == std::trunc(*number))
     return static_cast<std::int64_t>(*number);
   return *number;
-}
-
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;  // not the later bytes of a letter
-  }));
 }
 
 }  // namespace
@@ -69,12 +64,13 @@ std::string aligned(const record::Table& table) {
     }
   }
   for (const auto& line : lines)
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], letters(line[i]));
+    for (std::size_t i = 0; i < line.size(); ++i)
+      widths[i] = std::max(widths[i], letter_count(line[i]));
   std::string text;
   for (const auto& line : lines) {
     std::string one;
     for (std::size_t i = 0; i < line.size(); ++i) {
-      const std::string blanks(widths[i] - letters(line[i]), ' ');
+      const std::string blanks(widths[i] - letter_count(line[i]), ' ');
       one += (i == 0 ? "" : "  ") + (numeric[i] ? blanks + line[i] : line[i] + blanks);
     }
     text += one.substr(0, one.find_last_not_of(' ') + 1) + "\n";

@@ -71,8 +71,8 @@ void Talk::warn(const std::string& sentence) const {
 
 void Talk::error(const std::string& sentence) { write_line(sentence, "\033[31m"); }  // red
 
-void Talk::next(const std::string& verb, const std::string& path) const {
-  if (shows_progress()) say("next: palpate " + verb + " " + shell_word(path));
+void Talk::next(const std::string& verb, const std::string& path, const std::string& more) const {
+  if (shows_progress()) say("next: palpate " + verb + " " + shown_word(path) + more);
 }
 
 void Talk::annotate(const std::string& lines) {

@@ -26,8 +26,9 @@ class Talk {
   static void error(const std::string& sentence);  // stderr, always; red on terminals
   static void annotate(const std::string& lines);  // stderr, always: commands to a build server
 
-  // The command that follows on the path, on terminals only: `next: palpate open out/press`.
-  void next(const std::string& verb, const std::string& path) const;
+  // The command that follows on the path, on terminals only: `next: palpate open out/press`;
+  // `more` stands behind the path as it is.
+  void next(const std::string& verb, const std::string& path, const std::string& more = "") const;
 
   // Replaces the previous progress line, on terminals only; an empty line removes it.
   void progress(const std::string& line) const;

@@ -60,12 +60,16 @@ const Command* Command::find(const std::string& command) const {
 
 Command describe(const CLI::App& app) { return described(app, true); }
 
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  return text;
+}
+
 std::string synopsis(const Command& command, const std::string& before) {
   std::string line = before + command.name;
   for (const Argument& operand : command.operands) {
-    std::string name = operand.names[0];
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+    std::string name = upper(operand.names[0]);
     if (operand.repeated) name += "...";
     line += operand.required ? " " + name : " [" + name + "]";
   }

@@ -38,6 +38,9 @@ struct Command {
 // Reads what a parser knows. Hidden options are omitted, and so is `--help` below the top.
 [[nodiscard]] Command describe(const CLI::App& app);
 
+// With the letters a to z in upper case, as operands are written.
+[[nodiscard]] std::string upper(std::string text);
+
 // The first line of a command's help: `palpate fit DATA... --model MODEL [OPTION]...`.
 [[nodiscard]] std::string synopsis(const Command& command, const std::string& before);
 

@@ -54,12 +54,6 @@ std::string head(const Title& title) {
          plain(title.meaning) + "\n";
 }
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
-  return text;
-}
-
 std::string term_of(const Argument& argument) {
   return joined(argument.names, ", ") + (argument.value.empty() ? "" : " " + argument.value);
 }

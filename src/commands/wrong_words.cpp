@@ -113,14 +113,14 @@ std::string reason(const std::string& what) {
   if (cut(" excludes ", name, rest)) return ticked(name) + " does not go with " + ticked(rest);
   if (const std::size_t colon = what.find(": ");
       what.ends_with("}") && colon != std::string::npos && cut(" not in {", name, rest)) {
-    const std::string option = name.substr(0, colon);
     const std::string given = name.substr(colon + 2);
     const std::vector<std::string> known = split(rest.substr(0, rest.size() - 1), ',');
     // Of three letters one is too much for a slip.
     const auto near = given.size() > 3 ? nearest(given, known) : std::nullopt;
-    return (option.empty() ? "" : ticked(option) + " got ") + ticked(given) +
-           ", which is none of " + joined(known, ", ") +
-           (near ? "; did you mean " + ticked(*near) + "?" : "");
+    return (colon == 0 ? "a hidden option" : ticked(name.substr(0, colon))) + " does not know " +
+           ticked(given) +
+           (near ? "; did you mean " + ticked(*near) + "?"
+                 : "; it is one of " + joined(known, ", "));
   }
   if (cut(" not expected: ", name, rest))
     return (name.ends_with("were") ? "these words are too many: `" : "this word is too many: `") +
@@ -170,6 +170,7 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
     return "`" + command + "` wants a verb: " + joined(verb_names(*asked), ", ") + help;
   if (what.ends_with(required))
     return "`" + command + "` lacks `" + what.substr(0, what.size() - required.size()) + "`" + help;
+  if (what.find(" not in {") != std::string::npos) return reason(what);
   return "`" + command + "` cannot be read: " + reason(what) + help;
 }
 

@@ -1,143 +1,79 @@
-// Compares two tables column by column and row by row.
+// Compares two tables column by column and row by row, and two folders file by file.
 #include "compare/compare.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
-#include <span>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/document.h"
 #include "base/error.h"
+#include "base/field_reader.h"
 #include "base/index.h"
 #include "base/text.h"
+#include "base/written.h"
+#include "record/csv.h"
 
 namespace palpate::compare {
 namespace {
 
-const std::vector<std::string>& tables() {
-  static const std::vector<std::string> names{"default", "column", "tube"};
-  return names;
-}
-const std::vector<std::string>& keys() {
-  static const std::vector<std::string> names{"rel", "abs", "ignore", "reason"};
-  return names;
-}
-const std::vector<std::string>& tube_keys() {
-  static const std::vector<std::string> names{"x", "width"};
-  return names;
+void fields(FieldVisitor& visitor, Tolerance& tolerance) {
+  visitor.number({"rel", "part of the wanted value"}, tolerance.rel, at_least(0.0));
+  visitor.number({"abs", "in the unit of the column"}, tolerance.abs, at_least(0.0));
+  visitor.flag({"ignore", "whether it is compared at all"}, tolerance.ignore);
+  visitor.text({"reason", "why it may differ"}, tolerance.reason);
 }
 
-std::string unknown(const std::string& key, std::span<const std::string> known) {
-  const std::string message = "`" + key + "` is not known here";
-  if (const auto near = nearest(key, known)) return message + "; did you mean `" + *near + "`?";
-  return message + "; write one of `" + joined(known, "`, `") + "`";
-}
-
-std::string wants(const std::string& key, const std::string& what, const Node& got,
-                  const std::string& remedy) {
-  return "`" + key + "` wants " + what + ", got `" + got.shown() + "`; write it as `" + remedy +
-         "`";
-}
-
-class Reader {
- public:
-  void read(const Node& root, Tolerances& tolerances) {
-    if (const Member* standard = root.find("default")) table(*standard, tolerances.standard);
-    for (const Member& member : root.members) {
-      if (member.key == "default") continue;
-      if (member.key == "tube") {
-        tube(member, tolerances.tube.emplace());
-        if (const Member* x = member.value.find("x"))
-          tolerances.places.emplace_back(tolerances.tube->x, x->value.place);
-        continue;
-      }
-      if (member.key != "column") {
-        report(member.place, unknown(member.key, tables()));
-      } else if (member.value.kind != Node::Kind::table) {
-        report(member.value.place, "`column` wants tables, as `[column.force_N]`");
-      } else {
-        for (const Member& column : member.value.members) {
-          Tolerance tolerance = tolerances.standard;
-          tolerance.reason.clear();
-          table(column, tolerance);
-          tolerances.columns[column.key] = tolerance;
-          tolerances.places.emplace_back(column.key, column.place);
-        }
-      }
+Tolerances read(const Node& root) {
+  Tolerances all;
+  const Member* columns = root.find("column");
+  const Member* tube = root.find("tube");
+  if (columns != nullptr)
+    for (const Member& column : columns->value.members) {
+      all.columns[column.key] = {};
+      all.places.emplace_back(column.key, column.place);
     }
-    if (!problems_.empty()) throw InputError(problems_);
+  if (tube != nullptr) all.tube.emplace();
+  std::optional<double> width;
+  const auto keys = [&](FieldVisitor& top) {
+    top.table({"default", "of all columns"},
+              [&](FieldVisitor& visitor) { fields(visitor, all.standard); });
+    top.table({"column", "by name"}, [&](FieldVisitor& visitor) {
+      for (auto& [name, tolerance] : all.columns)
+        visitor.table({name.c_str(), "a column"},
+                      [&one = tolerance](FieldVisitor& inner) { fields(inner, one); });
+    });
+    top.table({"tube", "around a curve"}, [&](FieldVisitor& visitor) {
+      visitor.text({"x", "its column"}, all.tube->x);
+      visitor.number({"width", "in the unit of that column"}, width, at_least(0.0));
+    });
+  };
+  // What a column does not give is that of the default, which the first reading finds.
+  (void)read_fields(root, keys);
+  for (auto& [name, tolerance] : all.columns) {
+    tolerance = all.standard;
+    tolerance.reason.clear();
   }
-
- private:
-  void table(const Member& from, Tolerance& to) {
-    if (from.value.kind != Node::Kind::table)
-      return report(from.value.place, "`" + from.key + "` wants a table, got `" +
-                                          from.value.shown() + "`; give it keys, as `rel = 1e-9`");
-    for (const Member& member : from.value.members) {
-      if (member.key == "rel")
-        number(member, to.rel, "1e-9");
-      else if (member.key == "abs")
-        number(member, to.abs, "1e-12");
-      else if (member.key == "ignore")
-        truth(member, to.ignore);
-      else if (member.key == "reason")
-        text(member, to.reason, "reason = \"rounding of 1e4 steps\"");
-      else
-        report(member.place, unknown(member.key, keys()));
-    }
+  std::vector<Problem> problems = read_fields(root, keys).problems;
+  if (tube != nullptr && tube->value.kind == Node::Kind::table) {
+    if (const Member* x = tube->value.find("x"))
+      all.places.emplace_back(all.tube->x, x->value.place);
+    for (const auto& [key, example] : {std::pair{"x", "x = \"time_s\""}, {"width", "width = 0.05"}})
+      if (tube->value.find(key) == nullptr)
+        problems.push_back(
+            {tube->place, "`tube` wants `" + std::string(key) + "`; write `" + example + "`"});
+    all.tube->width = width.value_or(0.0);
   }
-
-  void tube(const Member& from, Tube& to) {
-    if (from.value.kind != Node::Kind::table)
-      return report(from.value.place, "`tube` wants a table, got `" + from.value.shown() +
-                                          "`; write `[tube]` and below it `x` and `width`");
-    for (const Member& member : from.value.members) {
-      if (member.key == "x")
-        text(member, to.x, "x = \"time_s\"");
-      else if (member.key == "width")
-        number(member, to.width, "0.05");
-      else
-        report(member.place, unknown(member.key, tube_keys()));
-    }
-    if (to.x.empty())
-      report(from.place, "`tube` wants the name of the column of x; write `x = \"time_s\"`");
-    if (from.value.find("width") == nullptr)
-      report(from.place, "`tube` wants a width, in the unit of its column; write `width = 0.05`");
-  }
-
-  void number(const Member& from, double& to, const std::string& example) {
-    const bool good =
-        from.value.is_number() && std::isfinite(from.value.number) && from.value.number >= 0.0;
-    if (good)
-      to = from.value.number;
-    else
-      report(from.value.place,
-             wants(from.key, "a number of 0 or more", from.value, from.key + " = " + example));
-  }
-
-  void truth(const Member& from, bool& to) {
-    if (from.value.kind == Node::Kind::boolean)
-      to = from.value.boolean;
-    else
-      report(from.value.place, wants(from.key, "true or false", from.value, "ignore = true"));
-  }
-
-  void text(const Member& from, std::string& to, const std::string& example) {
-    if (from.value.kind == Node::Kind::text)
-      to = from.value.text;
-    else
-      report(from.value.place, wants(from.key, "a text", from.value, example));
-  }
-
-  void report(const Place& place, const std::string& message) {
-    problems_.push_back({place, message});
-  }
-
-  std::vector<Problem> problems_;
-};
+  if (!problems.empty()) throw InputError(problems);
+  return all;
+}
 
 }  // namespace
 
@@ -147,16 +83,10 @@ const Tolerance& Tolerances::of(const std::string& column) const {
 }
 
 Tolerances parse_tolerances(std::string_view text, const std::string& file) {
-  Tolerances tolerances;
-  Reader().read(parse_toml(text, file), tolerances);
-  return tolerances;
+  return read(parse_toml(text, file));
 }
 
-Tolerances read_tolerances(const std::string& path) {
-  Tolerances tolerances;
-  Reader().read(read_toml(path), tolerances);
-  return tolerances;
-}
+Tolerances read_tolerances(const std::string& path) { return read(read_toml(path)); }
 
 namespace {
 
@@ -166,26 +96,71 @@ using State = ColumnComparison::State;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Difference {
-  double relative = 0.0;
-  double allowed = 0.0;
-  double excess = 0.0;  // difference / allowed; above 1 is beyond the tolerance
-};
-
-// |got - want| <= abs + rel |want|; values other than finite numbers must be identical.
-Difference difference(const Cell& got, const Cell& want, const Tolerance& tolerance) {
+// Whether two cells are identical; NaN equals NaN.
+bool same(const Cell& got, const Cell& want) {
   const auto* g = std::get_if<double>(&got);
   const auto* w = std::get_if<double>(&want);
-  Difference result;
-  if (same(got, want)) return result;
-  result.relative = result.excess = infinity;
-  if (w != nullptr && std::isfinite(*w))
-    result.allowed = tolerance.abs + tolerance.rel * std::abs(*w);
-  if (g == nullptr || w == nullptr || !std::isfinite(*g) || !std::isfinite(*w)) return result;
-  const double size = std::abs(*g - *w);
-  if (*w != 0.0) result.relative = size / std::abs(*w);
-  result.excess = excess(size, result.allowed);
-  return result;
+  return got == want || (g != nullptr && w != nullptr && std::isnan(*g) && std::isnan(*w));
+}
+
+// A difference of `size` divided by the allowed one, both at least 0: above 1 if, and only if, it
+// is beyond the allowed one; infinite beyond an allowed difference of 0.
+double excess(double size, double allowed) {
+  if (size <= allowed) return size / allowed;  // at most 1
+  return allowed > 0.0 ? std::max(size / allowed, std::nextafter(1.0, 2.0)) : infinity;
+}
+
+const double* finite(const Cell& cell) {
+  const auto* number = std::get_if<double>(&cell);
+  return number != nullptr && std::isfinite(*number) ? number : nullptr;
+}
+
+// The values of WANT in a window of x.
+struct Window {
+  double low = infinity, high = -infinity;
+  bool met = false;  // one of them is identical to the value of GOT
+
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+struct Judged {
+  double excess = 0.0;  // above 1 is beyond the tolerance
+  WorstRow row;
+};
+
+// |got - want| <= abs + rel |want| of the nearest value in the window; values other than finite
+// numbers must be identical to one of it.
+Judged judge(const Cell& got, const Window& window, const Tolerance& tolerance) {
+  Judged judged;
+  judged.row.got = got;
+  if (window.met) return judged;
+  judged.excess = judged.row.relative = infinity;
+  if (window.low > window.high) return judged;
+  const double* value = finite(got);
+  const double nearest = value ? std::clamp(*value, window.low, window.high) : window.low;
+  judged.row.want = nearest;
+  judged.row.allowed = tolerance.abs + tolerance.rel * std::abs(nearest);
+  if (value == nullptr) return judged;
+  const double distance = std::abs(*value - nearest);
+  if (distance == 0.0) {
+    judged.excess = judged.row.relative = 0.0;
+    return judged;
+  }
+  if (nearest != 0.0) judged.row.relative = distance / std::abs(nearest);
+  judged.excess = excess(distance, judged.row.allowed);
+  return judged;
+}
+
+// Counts a row, from 0, and keeps the worst.
+void count(ColumnComparison& column, Judged judged, std::size_t row, double& most) {
+  if (judged.excess > 1.0) ++column.differing;
+  if (judged.excess <= most) return;
+  most = judged.excess;
+  judged.row.row = row + 1;
+  column.worst = judged.row;
 }
 
 ColumnComparison compare_column(const Table& got, const Table& want, const std::string& name,
@@ -195,14 +170,12 @@ ColumnComparison compare_column(const Table& got, const Table& want, const std::
   const auto w = as_index(want.find(name));
   double most = 0.0;
   for (std::size_t i = 0; i < std::min(got.rows.size(), want.rows.size()); ++i) {
-    const Cell& a = got.rows[i][g];
-    const Cell& b = want.rows[i][w];
-    const Difference found = difference(a, b, tolerance);
-    if (found.excess > 1.0) ++column.differing;
-    if (found.excess <= most) continue;
-    most = found.excess;
-    column.worst = {
-        .row = i + 1, .got = a, .want = b, .relative = found.relative, .allowed = found.allowed};
+    const Cell& wanted = want.rows[i][w];
+    Window window{.met = same(got.rows[i][g], wanted)};
+    if (const double* value = finite(wanted)) window.take(*value);
+    Judged judged = judge(got.rows[i][g], window, tolerance);
+    judged.row.want = wanted;
+    count(column, judged, i, most);
   }
   return column;
 }
@@ -234,7 +207,7 @@ std::string worst_text(const WorstRow& worst) {
   return text;
 }
 
-// The column that tells where in a curve a row is: that of the tube, or time, or travel.
+// The column that tells where in a curve a row is: that of the tube, or time, or displacement.
 std::string x_of(const Table& table, const std::optional<Tube>& tube) {
   if (tube && table.find(tube->x) >= 0) return tube->x;
   for (const char* known : {"time_s", "travel_mm"})
@@ -254,6 +227,134 @@ void locate(ColumnComparison& column, const Table& got, const std::string& x) {
   column.worst->x = row[as_index(got.find(x))];
 }
 
+// The rows of one case with their x. Rows without a finite x are excluded.
+struct Course {
+  std::vector<double> x;
+  std::vector<std::size_t> rows;
+};
+using Courses = std::map<std::string, Course>;
+
+Courses courses_of(const Table& table, const std::string& x, bool by_case) {
+  Courses courses;
+  const auto column = as_index(table.find(x));
+  const auto name = as_index(table.find("case"));
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto* number = std::get_if<double>(&table.rows[i][column]);
+    if (number == nullptr || !std::isfinite(*number)) continue;
+    std::string key;
+    if (by_case)
+      if (const auto* word = std::get_if<std::string>(&table.rows[i][name])) key = *word;
+    courses[key].x.push_back(*number);
+    courses[key].rows.push_back(i);
+  }
+  return courses;
+}
+
+class Want {
+ public:
+  Want(const Table& table, const std::string& name, const Course& course)
+      : table_(table), column_(as_index(table.find(name))), course_(course) {}
+
+  [[nodiscard]] Window around(double x, double width, const Cell& got) const {
+    Window window;
+    const auto& xs = course_.x;
+    const auto first = std::lower_bound(xs.begin(), xs.end(), x - width) - xs.begin();
+    const auto last = std::upper_bound(xs.begin(), xs.end(), x + width) - xs.begin();
+    for (auto i = first; i < last; ++i) {
+      const Cell& cell = at(i);
+      window.met = window.met || same(got, cell);
+      if (const double* value = finite(cell)) window.take(*value);
+    }
+    // Between two rows a word may be that of either row.
+    if (first == last && finite(got) == nullptr)
+      for (const auto i : {first - 1, first})
+        if (i >= 0 && i < static_cast<std::ptrdiff_t>(xs.size()))
+          window.met = window.met || same(got, at(i));
+    edge(first, x - width, window);
+    edge(last, x + width, window);
+    return window;
+  }
+
+ private:
+  [[nodiscard]] const Cell& at(std::ptrdiff_t i) const {
+    return table_.rows[course_.rows[as_index(i)]][column_];
+  }
+  // Adds the value at `x` on the line from row i - 1 to row i.
+  void edge(std::ptrdiff_t i, double x, Window& window) const {
+    if (i < 1 || i >= static_cast<std::ptrdiff_t>(course_.x.size())) return;
+    const double* before = finite(at(i - 1));
+    const double* after = finite(at(i));
+    if (before == nullptr || after == nullptr) return;
+    const double from = course_.x[as_index(i - 1)];
+    const double to = course_.x[as_index(i)];
+    const double share = to > from ? (x - from) / (to - from) : 1.0;
+    window.take(*before + share * (*after - *before));
+  }
+
+  const Table& table_;
+  std::size_t column_;
+  const Course& course_;
+};
+
+bool by_case(const Table& got, const Table& want) {
+  return got.find("case") >= 0 && want.find("case") >= 0;
+}
+
+// Compares every value of GOT with the range of WANT within the tube's width of the same x, with
+// linear interpolation between WANT's rows; of cases, if both have them, only with the same. Words
+// and non-finite values must be identical to the value of one of the rows in the tube or, if there
+// is none, of one of the two rows around it. The `want` of the worst row is the nearest value. Both
+// tables have the columns; x rises within a case.
+ColumnComparison compare_in_tube(const Table& got, const Table& want, const std::string& name,
+                                 const Tolerances& tolerances) {
+  ColumnComparison column{.name = name};
+  const Tube& tube = *tolerances.tube;
+  const bool cases = by_case(got, want);
+  const Courses theirs = courses_of(want, tube.x, cases);
+  const auto value = as_index(got.find(name));
+  const Course none;
+  double most = 0.0;
+  for (const auto& [key, ours] : courses_of(got, tube.x, cases)) {
+    const auto found = theirs.find(key);
+    const Want wanted(want, name, found == theirs.end() ? none : found->second);
+    for (std::size_t i = 0; i < ours.x.size(); ++i) {
+      const Cell& cell = got.rows[ours.rows[i]][value];
+      count(column, judge(cell, wanted.around(ours.x[i], tube.width, cell), tolerances.of(name)),
+            ours.rows[i], most);
+    }
+  }
+  return column;
+}
+
+// Compares the column of x: both must begin and end within the tube's width of each other.
+ColumnComparison compare_ends(const Table& got, const Table& want, const Tube& tube) {
+  ColumnComparison column{.name = tube.x};
+  const bool cases = by_case(got, want);
+  const Courses ours = courses_of(got, tube.x, cases);
+  for (const auto& [key, theirs] : courses_of(want, tube.x, cases)) {
+    const auto found = ours.find(key);
+    const bool none = found == ours.end();
+    for (const bool first : {true, false}) {
+      const double wanted = first ? theirs.x.front() : theirs.x.back();
+      const double there = none    ? infinity
+                           : first ? found->second.x.front()
+                                   : found->second.x.back();
+      const double distance = std::abs(there - wanted);
+      if (distance <= tube.width) continue;
+      ++column.differing;
+      WorstRow& worst = column.worst.emplace();
+      if (!none) {
+        worst.row = (first ? found->second.rows.front() : found->second.rows.back()) + 1;
+        worst.got = there;
+      }
+      worst.want = wanted;
+      worst.relative = wanted != 0.0 ? distance / std::abs(wanted) : infinity;
+      worst.allowed = tube.width;
+    }
+  }
+  return column;
+}
+
 }  // namespace
 
 std::string verdict_text(const ColumnComparison& column) {
@@ -265,13 +366,8 @@ std::string verdict_text(const ColumnComparison& column) {
   }
   if (!column.worst) return "the same";
   if (column.differing == 0) return "equal; worst " + worst_text(*column.worst);
-  return "DIFFERS in " + std::to_string(column.differing) +
-         (column.differing == 1 ? " row" : " rows") + "; worst " + worst_text(*column.worst);
-}
-
-std::string rows_text(const Comparison& comparison) {
-  return "DIFFERS, got " + std::to_string(comparison.rows_got) + ", want " +
-         std::to_string(comparison.rows_want);
+  return "DIFFERS in " + count_text(column.differing, "row") + "; worst " +
+         worst_text(*column.worst);
 }
 
 int rank_of(const ColumnComparison& column) {
@@ -325,199 +421,208 @@ Comparison compare(const Table& got, const Table& want, const Tolerances& tolera
   return comparison;
 }
 
-std::string comparison_text(const Comparison& comparison) {
-  std::string text;
-  if (!comparison.rows_equal()) text += "rows: " + rows_text(comparison) + "\n";
-  for (const ColumnComparison& column : comparison.columns)
-    if (!column.equal()) text += one_line(column.name) + ": " + verdict_text(column) + "\n";
-  return text;
-}
-
 namespace {
 
-using record::Cell;
-using record::Table;
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-
-// The rows of one case with their x. Rows without a finite x are excluded.
-struct Course {
-  std::vector<double> x;
-  std::vector<std::size_t> rows;
-};
-using Courses = std::map<std::string, Course>;
-
-Courses courses_of(const Table& table, const std::string& x, bool by_case) {
-  Courses courses;
-  const auto column = as_index(table.find(x));
-  const auto name = as_index(table.find("case"));
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const auto* number = std::get_if<double>(&table.rows[i][column]);
-    if (number == nullptr || !std::isfinite(*number)) continue;
-    std::string key;
-    if (by_case)
-      if (const auto* word = std::get_if<std::string>(&table.rows[i][name])) key = *word;
-    courses[key].x.push_back(*number);
-    courses[key].rows.push_back(i);
-  }
-  return courses;
+// Refuses tolerances for columns that no table has: a misspelt name would allow nothing.
+void refuse_unknown_columns(const Tolerances& tolerances, const std::set<std::string>& columns) {
+  const std::vector<std::string> known(columns.begin(), columns.end());
+  std::vector<Problem> problems;
+  const auto ask = [&](const std::string& name, const Place& place) {
+    if (columns.contains(name)) return;
+    const auto near = nearest(name, known);
+    problems.push_back({place, "`" + name + "` is no column of these files; " +
+                                   (near ? "did you mean `" + *near + "`?"
+                                         : "take it out, or name one of " + joined(known, ", "))});
+  };
+  for (const auto& [name, place] : tolerances.places) ask(name, place);
+  if (!problems.empty()) throw InputError(problems);
 }
 
-const double* finite(const Cell& cell) {
-  const auto* number = std::get_if<double>(&cell);
-  return number != nullptr && std::isfinite(*number) ? number : nullptr;
+FileComparison compare_file(const std::string& file, const Tables& got, const Tables& want,
+                            const Tolerances& tolerances, std::set<std::string>& columns) {
+  FileComparison result{.file = file};
+  const auto ours = got.find(file);
+  const auto theirs = want.find(file);
+  record::Table left, right;
+  if (ours != got.end()) left = ours->second();
+  if (theirs != want.end()) right = theirs->second();
+  columns.insert(left.columns.begin(), left.columns.end());
+  columns.insert(right.columns.begin(), right.columns.end());
+  if (ours == got.end())
+    result.state = FileComparison::State::missing;
+  else if (theirs == want.end())
+    result.state = FileComparison::State::extra;
+  else
+    result.comparison = compare(left, right, tolerances);
+  return result;
 }
 
-// The values of WANT in a window of x.
-struct Window {
-  double low = unbounded, high = -unbounded;
-  bool met = false;  // one of them is identical to the value of GOT
-
-  void take(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
+const char* state_word(const ColumnComparison& column) {
+  switch (column.state) {
+    case ColumnComparison::State::ignored: return "ignored";
+    case ColumnComparison::State::missing: return "missing";
+    case ColumnComparison::State::extra: return "extra";
+    case ColumnComparison::State::compared: break;
   }
-};
-
-class Want {
- public:
-  Want(const Table& table, const std::string& name, const Course& course)
-      : table_(table), column_(as_index(table.find(name))), course_(course) {}
-
-  [[nodiscard]] Window around(double x, double width, const Cell& got) const {
-    Window window;
-    const auto& xs = course_.x;
-    const auto first = std::lower_bound(xs.begin(), xs.end(), x - width) - xs.begin();
-    const auto last = std::upper_bound(xs.begin(), xs.end(), x + width) - xs.begin();
-    for (auto i = first; i < last; ++i) {
-      const Cell& cell = at(i);
-      window.met = window.met || same(got, cell);
-      if (const double* value = finite(cell)) window.take(*value);
-    }
-    // Between two rows a word may be that of either row.
-    if (first == last && finite(got) == nullptr)
-      for (const auto i : {first - 1, first})
-        if (i >= 0 && i < static_cast<std::ptrdiff_t>(xs.size()))
-          window.met = window.met || same(got, at(i));
-    edge(first, x - width, window);
-    edge(last, x + width, window);
-    return window;
-  }
-
- private:
-  [[nodiscard]] const Cell& at(std::ptrdiff_t i) const {
-    return table_.rows[course_.rows[as_index(i)]][column_];
-  }
-  // Adds the value at `x` on the line from row i - 1 to row i.
-  void edge(std::ptrdiff_t i, double x, Window& window) const {
-    if (i < 1 || i >= static_cast<std::ptrdiff_t>(course_.x.size())) return;
-    const double* before = finite(at(i - 1));
-    const double* after = finite(at(i));
-    if (before == nullptr || after == nullptr) return;
-    const double from = course_.x[as_index(i - 1)];
-    const double to = course_.x[as_index(i)];
-    const double share = to > from ? (x - from) / (to - from) : 1.0;
-    window.take(*before + share * (*after - *before));
-  }
-
-  const Table& table_;
-  std::size_t column_;
-  const Course& course_;
-};
-
-bool by_case(const Table& got, const Table& want) {
-  return got.find("case") >= 0 && want.find("case") >= 0;
+  return !column.worst ? "same" : column.equal() ? "equal" : "differs";
 }
 
-struct Judged {
-  double excess = 0.0;  // above 1 is beyond the tolerance
-  WorstRow row;
-};
+std::vector<Cell> row_of(const std::string& file, const ColumnComparison& column) {
+  std::vector<Cell> row{file, column.name, std::string(state_word(column)),
+                        static_cast<double>(column.differing)};
+  row.resize(12);
+  if (!column.worst) return row;
+  const WorstRow& worst = *column.worst;
+  row[4] = static_cast<double>(worst.row);
+  if (!worst.case_name.empty()) row[5] = worst.case_name;
+  if (!worst.x_name.empty()) row[6] = worst.x_name;
+  row[7] = worst.x;
+  row[8] = worst.got;
+  row[9] = worst.want;
+  if (std::isfinite(worst.relative)) row[10] = worst.relative;
+  row[11] = worst.allowed;
+  return row;
+}
 
-Judged judge(const Cell& got, const Window& window, const Tolerance& tolerance) {
-  Judged judged;
-  judged.row.got = got;
-  if (window.met) return judged;
-  judged.excess = judged.row.relative = unbounded;
-  const double* value = finite(got);
-  if (value == nullptr || window.low > window.high) return judged;
-  const double nearest = std::clamp(*value, window.low, window.high);
-  const double distance = std::abs(*value - nearest);
-  judged.row.want = nearest;
-  judged.row.allowed = tolerance.abs + tolerance.rel * std::abs(nearest);
-  if (distance == 0.0) {
-    judged.excess = judged.row.relative = 0.0;
-    return judged;
-  }
-  if (nearest != 0.0) judged.row.relative = distance / std::abs(nearest);
-  judged.excess = excess(distance, judged.row.allowed);
-  return judged;
+std::vector<Cell> row_without_column(const std::string& file, const char* state) {
+  std::vector<Cell> row{file, {}, std::string(state)};
+  row.resize(12);
+  return row;
 }
 
 }  // namespace
 
-bool same(const Cell& got, const Cell& want) {
-  const auto* g = std::get_if<double>(&got);
-  const auto* w = std::get_if<double>(&want);
-  return got == want || (g != nullptr && w != nullptr && std::isnan(*g) && std::isnan(*w));
+bool FolderComparison::equal() const {
+  return std::all_of(files.begin(), files.end(), [](const auto& each) { return each.equal(); });
 }
 
-double excess(double size, double allowed) {
-  if (size <= allowed) return size / allowed;  // at most 1
-  return allowed > 0.0 ? std::max(size / allowed, std::nextafter(1.0, 2.0)) : unbounded;
+Tables tables_below(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  Tables tables;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error))
+    if (entry->is_regular_file(error) && entry->path().extension() == ".csv")
+      tables[entry->path().lexically_relative(folder).generic_string()] =
+          [path = entry->path().string()] { return record::read_csv(path); };
+  if (error)
+    throw InputError({folder, 0, 0},
+                     "cannot be read: " + error.message() + "; give a folder of results");
+  return tables;
 }
 
-ColumnComparison compare_in_tube(const Table& got, const Table& want, const std::string& name,
+FolderComparison compare_tables(const Tables& got, const Tables& want,
+                                const Tolerances& tolerances) {
+  std::set<std::string> names;
+  for (const auto& [name, table] : got) names.insert(name);
+  for (const auto& [name, table] : want) names.insert(name);
+  FolderComparison folders;
+  std::set<std::string> columns;
+  for (const std::string& name : names)
+    folders.files.push_back(compare_file(name, got, want, tolerances, columns));
+  refuse_unknown_columns(tolerances, columns);
+  return folders;
+}
+
+FolderComparison compare_folders(const std::string& got, const std::string& want,
                                  const Tolerances& tolerances) {
-  ColumnComparison column{.name = name};
-  const Tube& tube = *tolerances.tube;
-  const bool cases = by_case(got, want);
-  const Courses theirs = courses_of(want, tube.x, cases);
-  const auto value = as_index(got.find(name));
-  const Course none;
-  double most = 0.0;
-  for (const auto& [key, ours] : courses_of(got, tube.x, cases)) {
-    const auto found = theirs.find(key);
-    const Want wanted(want, name, found == theirs.end() ? none : found->second);
-    for (std::size_t i = 0; i < ours.x.size(); ++i) {
-      const Cell& cell = got.rows[ours.rows[i]][value];
-      Judged judged = judge(cell, wanted.around(ours.x[i], tube.width, cell), tolerances.of(name));
-      if (judged.excess > 1.0) ++column.differing;
-      if (judged.excess <= most) continue;
-      most = judged.excess;
-      judged.row.row = ours.rows[i] + 1;
-      column.worst = judged.row;
-    }
-  }
-  return column;
+  const Tables wanted = tables_below(want);
+  if (wanted.empty())
+    throw InputError({want, 0, 0}, "holds no CSV file to compare with; give a folder of results");
+  return compare_tables(tables_below(got), wanted, tolerances);
 }
 
-ColumnComparison compare_ends(const Table& got, const Table& want, const Tube& tube) {
-  ColumnComparison column{.name = tube.x};
-  const bool cases = by_case(got, want);
-  const Courses ours = courses_of(got, tube.x, cases);
-  for (const auto& [key, theirs] : courses_of(want, tube.x, cases)) {
-    const auto found = ours.find(key);
-    const bool none = found == ours.end();
-    for (const bool first : {true, false}) {
-      const double wanted = first ? theirs.x.front() : theirs.x.back();
-      const double there = none    ? unbounded
-                           : first ? found->second.x.front()
-                                   : found->second.x.back();
-      const double distance = std::abs(there - wanted);
-      if (distance <= tube.width) continue;
-      ++column.differing;
-      WorstRow& worst = column.worst.emplace();
-      if (!none) {
-        worst.row = (first ? found->second.rows.front() : found->second.rows.back()) + 1;
-        worst.got = there;
+std::string Item::sentence() const {
+  return file.empty() ? text : one_line(file) + ", " + one_line(name) + ": " + text;
+}
+
+std::vector<Item> items_of(const FolderComparison& comparison) {
+  std::vector<Item> items;
+  for (const FileComparison& file : comparison.files) {
+    const auto failed = [&](const std::string& name, const std::string& text) {
+      items.push_back({Item::State::failed, file.file, name, "DIFFERS, " + text});
+    };
+    if (file.state == FileComparison::State::missing) failed("file", "the file is missing");
+    if (file.state == FileComparison::State::extra) failed("file", "the file is not wanted");
+    if (!file.comparison.rows_equal())
+      failed("rows", "got " + std::to_string(file.comparison.rows_got) + ", want " +
+                         std::to_string(file.comparison.rows_want));
+    for (const ColumnComparison& column : file.comparison.columns) {
+      Item item{.file = file.file, .name = column.name, .rank = rank_of(column), .column = &column};
+      if (column.state == ColumnComparison::State::ignored) item.state = Item::State::skipped;
+      if (!column.equal()) {
+        item.state = Item::State::failed;
+        item.text = verdict_text(column);
       }
-      worst.want = wanted;
-      worst.relative = wanted != 0.0 ? distance / std::abs(wanted) : unbounded;
-      worst.allowed = tube.width;
+      items.push_back(std::move(item));
     }
   }
-  return column;
+  return items;
+}
+
+std::vector<Item> differences(const FolderComparison& comparison) {
+  std::vector<Item> all = items_of(comparison);
+  std::erase_if(all, [](const Item& item) { return item.state != Item::State::failed; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Item& a, const Item& b) { return a.rank < b.rank; });
+  return all;
+}
+
+std::string headline(const FolderComparison& comparison) {
+  std::size_t columns = 0;
+  for (const FileComparison& file : comparison.files) columns += file.comparison.columns.size();
+  const std::size_t files = comparison.files.size();
+  const std::string all =
+      count_text(columns, "column") + (files == 1 ? "" : " of " + count_text(files, "file"));
+  if (comparison.equal()) return "equal: " + all;
+  const std::vector<Item> found = differences(comparison);
+  const auto differing = std::count_if(found.begin(), found.end(),
+                                       [](const Item& item) { return item.column != nullptr; });
+  const Item& first = found.front();
+  std::string text = "DIFFERS in " + std::to_string(differing) + " of " + all + ", in " +
+                     (first.column != nullptr ? one_line(first.name)
+                      : first.name == "rows"  ? "the number of rows"
+                                              : "what files there are");
+  if (first.column != nullptr && first.column->worst &&
+      std::isfinite(first.column->worst->relative))
+    text += " by " + percent_text(first.column->worst->relative);
+  return text;
+}
+
+std::string difference_lines(const FolderComparison& comparison) {
+  constexpr std::size_t most = 8;
+  const std::vector<Item> found = differences(comparison);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found.size(), most); ++i)
+    text += (comparison.files.size() == 1 ? one_line(found[i].name) + ": " + found[i].text
+                                          : found[i].sentence()) +
+            "\n";
+  if (found.size() > most)
+    text += "and " + std::to_string(found.size() - most) +
+            " more; `--json` tells all of them, `--report FILE` writes them on a page\n";
+  return text;
+}
+
+record::Table comparison_table(const FolderComparison& comparison) {
+  record::Table table{{"file", "column", "state", "rows_differing", "row", "case", "x_name", "x",
+                       "got", "want", "relative", "allowed"},
+                      {}};
+  for (const FileComparison& file : comparison.files) {
+    if (file.state != FileComparison::State::compared) {
+      table.rows.push_back(row_without_column(
+          file.file, file.state == FileComparison::State::missing ? "missing" : "extra"));
+      continue;
+    }
+    if (!file.comparison.rows_equal()) {
+      std::vector<Cell> row = row_without_column(file.file, "rows_differ");
+      row[8] = static_cast<double>(file.comparison.rows_got);
+      row[9] = static_cast<double>(file.comparison.rows_want);
+      table.rows.push_back(std::move(row));
+    }
+    for (const ColumnComparison& column : file.comparison.columns)
+      table.rows.push_back(row_of(file.file, column));
+  }
+  return table;
 }
 
 }  // namespace palpate::compare

@@ -1,7 +1,9 @@
-// Comparison of two tables: which columns differ, and in which row most.
+// Comparison of two tables, which columns differ and in which row most, and of two result folders,
+// every CSV file with the file of the same name.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -85,11 +87,8 @@ struct Comparison {
 [[nodiscard]] Comparison compare(const record::Table& got, const record::Table& want,
                                  const Tolerances& tolerances);
 
-// One line per difference, a column with its worst row; each line ends with `\n`.
-[[nodiscard]] std::string comparison_text(const Comparison& comparison);
-// The part of the line after the column's name: what differs, where, and both values.
+// What differs in a column, where most, and both values.
 [[nodiscard]] std::string verdict_text(const ColumnComparison& column);
-[[nodiscard]] std::string rows_text(const Comparison& comparison);  // the numbers of rows differ
 
 // The order in which columns are told: first what a curve is drawn of, `force_N`, `strain` and
 // `stress_kPa` (0), then its peak and other results of a case (1), then other columns of curves
@@ -97,24 +96,67 @@ struct Comparison {
 [[nodiscard]] int rank_of(const ColumnComparison& column);
 inline constexpr int last_result_rank = 2;
 
-// Whether two cells are identical; NaN equals NaN.
-[[nodiscard]] bool same(const record::Cell& got, const record::Cell& want);
+struct FileComparison {
+  enum class State { compared, missing, extra };
 
-// A difference of `size` divided by the allowed one, both at least 0: above 1 if, and only if, it
-// is beyond the allowed one; infinite beyond an allowed difference of 0.
-[[nodiscard]] double excess(double size, double allowed);
+  std::string file;  // relative to both folders
+  State state = State::compared;
+  Comparison comparison = {};  // only if compared
 
-// Compares every value of GOT with the range of WANT within the tube's width of the same x, with
-// linear interpolation between WANT's rows. If both tables have a column `case`, only rows of the
-// same case are compared. Words and non-finite values must be identical to the value of one of the
-// rows in the tube or, if there is none, of one of the two rows around it. The `want` of the worst
-// row is the nearest value in the range. Both tables have the columns; x rises within a case.
-[[nodiscard]] ColumnComparison compare_in_tube(const record::Table& got, const record::Table& want,
-                                               const std::string& name,
+  [[nodiscard]] bool equal() const { return state == State::compared && comparison.equal(); }
+};
+
+struct FolderComparison {
+  std::vector<FileComparison> files;  // by name
+
+  [[nodiscard]] bool equal() const;
+};
+
+// Tables by the names of their files, each read when it is compared.
+using Tables = std::map<std::string, std::function<record::Table()>>;
+
+// Every .csv file below a folder, at any depth, by its path relative to it. Throws InputError if
+// the folder cannot be read.
+[[nodiscard]] Tables tables_below(const std::string& folder);
+
+// Compares every table of `want` with the one of the same name in `got`; a table in only one of
+// them is a difference. Throws InputError if a file cannot be parsed, or if the tolerances name a
+// column that no table has.
+[[nodiscard]] FolderComparison compare_tables(const Tables& got, const Tables& want,
+                                              const Tolerances& tolerances);
+
+// Compares the CSV files of two folders as compare_tables() does. Throws InputError also if a
+// folder cannot be read or `want` contains no CSV file.
+[[nodiscard]] FolderComparison compare_folders(const std::string& got, const std::string& want,
                                                const Tolerances& tolerances);
 
-// Compares the column of x: both must begin and end within the tube's width of each other.
-[[nodiscard]] ColumnComparison compare_ends(const record::Table& got, const record::Table& want,
-                                            const Tube& tube);
+// One thing that was compared: a column, the number of rows, or a whole file.
+struct Item {
+  enum class State { good, skipped, failed, error };  // `skipped`: ignored; `error`: not compared
+
+  State state = State::good;
+  std::string file = {};                     // relative to the folder
+  std::string name = {};                     // of the column; else `rows` or `file`
+  std::string text = {};                     // what is wrong
+  int rank = 2;                              // as rank_of()
+  const ColumnComparison* column = nullptr;  // of the comparison; null for rows and files
+
+  // `force_indentation.csv, force_N: DIFFERS in ...`; without a file the text alone.
+  [[nodiscard]] std::string sentence() const;
+};
+// All of them, in the order of files and columns; and those that differ, by their rank.
+[[nodiscard]] std::vector<Item> items_of(const FolderComparison& comparison);
+[[nodiscard]] std::vector<Item> differences(const FolderComparison& comparison);
+
+// The comparison in a line: `equal: 35 columns of 2 files`, or `DIFFERS in 17 of 35 columns of 2
+// files, in force_N by 0.5 %`, the column that comes first by its rank.
+[[nodiscard]] std::string headline(const FolderComparison& comparison);
+// One line per difference, by rank, at most eight, and how many more there are.
+[[nodiscard]] std::string difference_lines(const FolderComparison& comparison);
+
+// The same as a table, one row per column: file, column, state (same, equal, differs, ignored,
+// missing, extra), rows_differing, and row, case, x_name, x, got, want, relative and allowed of the
+// worst row. A file in one folder only, and different numbers of rows, have a row without a column.
+[[nodiscard]] record::Table comparison_table(const FolderComparison& comparison);
 
 }  // namespace palpate::compare

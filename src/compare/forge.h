@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "compare/compare_folders.h"
+#include "compare/compare.h"
 
 namespace palpate::compare {
 

@@ -152,7 +152,9 @@ std::vector<std::string> write_identification(const Identification& found,
     if (!is_exact(found)) plot::draw(profile_sheet(title, found), folder, warnings);
   }
 
-  report::Manifest manifest = report::begin_manifest(origin, read);
+  report::Manifest manifest{.origin = origin, .complete = true};
+  for (const scenario::InputFile& input : read)
+    manifest.inputs.push_back({input.name, sha256(input.content)});
   std::vector<HashedFile> inputs = manifest.inputs;
   for (const PairFiles& pair : pairs) {
     const std::string hash = file_sha256(pair.measured);
@@ -161,7 +163,6 @@ std::vector<std::string> write_identification(const Identification& found,
   }
   write_page(found, pairs, inputs, command_of(origin.argv, pairs), folder);
   manifest.outputs = folder.files();
-  manifest.complete = true;
   folder.write("run.json", report::manifest_text(manifest));
   return folder.put(WholeFolder::State::complete, warnings);
 }

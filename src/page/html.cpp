@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "base/written.h"
 #include "plot/gnuplot_text.h"
 
 namespace palpate::page {
@@ -17,24 +18,6 @@ Markup Markup::ready(std::string html) {
 }
 
 Markup operator+(Markup first, const Markup& second) { return first += second; }
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '"': safe += "&quot;"; break;
-      case '\'': safe += "&#39;"; break;
-      default: {
-        const auto byte = static_cast<unsigned char>(letter);
-        safe += (byte < 0x20 && letter != '\n') || byte == 0x7f ? ' ' : letter;
-      }
-    }
-  }
-  return safe;
-}
 
 Markup text(std::string_view words) { return Markup::ready(escaped(words)); }
 
@@ -119,11 +102,15 @@ Markup table(const std::string& caption, const record::Table& content) {
     for (std::size_t i = 0; i < row.size(); ++i) cells += cell(row[i], i == 0, content.columns[i]);
     body += element("tr", cells) + Markup::ready("\n");
   }
+  constexpr std::size_t many = 8;  // columns; more do not fit on paper side by side
   return element(
       "div",
       element("table", element("caption", caption) + element("thead", element("tr", head)) +
                            element("tbody", body)),
-      {{"class", "wide"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}});
+      {{"class", content.columns.size() > many ? "wide many" : "wide"},
+       {"tabindex", "0"},
+       {"role", "region"},
+       {"aria-label", caption}});
 }
 
 record::Table columns_of(const record::Table& content, const std::vector<std::string>& names) {

@@ -29,8 +29,6 @@ class Markup {
 };
 [[nodiscard]] Markup operator+(Markup first, const Markup& second);
 
-// The text with & < > " ' escaped and control characters, which HTML forbids, as spaces.
-[[nodiscard]] std::string escaped(std::string_view text);
 [[nodiscard]] Markup text(std::string_view words);
 
 using Attributes = std::vector<std::pair<std::string_view, std::string>>;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/text.h"
+#include "base/written.h"
 
 namespace palpate::page {
 
@@ -38,8 +39,11 @@ figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; fo
 figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
   #scene-still text { font-size: 1.8em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
-.white { background: #ffffff; border-radius: .4rem; max-width: 44rem; }
-@media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); } }
+#scene-still .back { fill: none; } #scene-still .ink { fill: var(--ink); }
+#scene-still .ink[stroke] { stroke: var(--ink); } #scene-still .border { stroke: var(--soft); }
+#scene-still .halo { fill: var(--ink); stroke: var(--back); }
+@media (prefers-color-scheme: dark) { .plot svg { filter: invert(.91) hue-rotate(180deg); }
+  .map svg g[shape-rendering="crispEdges"] { filter: invert(1) hue-rotate(180deg); } }
 .maps { display: flex; flex-wrap: wrap; gap: 1.2rem; } .maps figure { margin: 0; width: 17rem; }
 .maps img { width: 100%; display: block; height: auto; image-rendering: pixelated; border: 1px solid var(--line); }
 .bar { display: flex; justify-content: space-between; font-size: .9rem; }
@@ -54,7 +58,7 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards figure div { max-height: 15rem; overflow: hidden; } .cards .plot text { font-size: 1.2em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards figure svg { max-height: 22rem; } .cards .plot text { font-size: 1.4em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .result td:last-child { white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
@@ -68,7 +72,13 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
   .wide { overflow: visible; } .wide table { font-size: .78rem; } figure svg { max-height: 19cm; }
   h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { margin-top: .3rem; }
-  tbody tr:first-child { break-before: avoid; } details:not([open]) { display: none; } }
+  tbody tr:first-child { break-before: avoid; } summary { list-style: none; break-after: avoid; }
+  details::details-content { content-visibility: visible; height: auto; }
+  .many thead { display: none; } .many table, .many tr, .many th { display: block; }
+  .many td { display: inline-block; margin-right: 1rem; }
+  .many th, .many td { border: 0; padding: .1rem 0; text-align: left; }
+  .many tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
+  .many td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } }
 )css";
 }
 
@@ -188,45 +198,38 @@ Markup inline_svg(const std::string& svg, const std::string& prefix,
 
 std::string class_of(const std::string& picture) {
   const fs::path script = fs::path(picture).replace_extension(".gp");
-  const bool colours =
-      fs::exists(script) && read_text(script.string()).find("set palette") != std::string::npos;
-  return colours ? "white" : "plot";
-}
-
-Markup figures(const std::vector<ShownFigure>& shown, const WholeFolder& folder) {
-  Markup all;
-  for (const ShownFigure& figure : shown) {
-    const std::string picture = figure.name + ".svg";
-    Markup caption = text(figure.caption + " Data: ");
-    for (const std::string& file : figure.data)
-      caption += (&file == figure.data.data() ? Markup() : text(", ")) + link(file, file);
-    if (!fs::exists(folder.file(picture))) {
-      all += element("p", text("The figure " + picture + " could not be drawn here. ") + caption);
-      continue;
-    }
-    const Markup svg = inline_svg(read_text(folder.file(picture)), figure.name, figure.caption);
-    all += element("figure", element("div", svg, {{"class", class_of(folder.file(picture))}}) +
-                                 element("figcaption",
-                                         caption + text("; picture: ") + link(picture, picture)));
-  }
-  return all;
+  const bool map =
+      fs::exists(script) && read_text(script.string()).find("boxxyerror") != std::string::npos;
+  return map ? "plot map" : "plot";
 }
 
 Markup all_figures(const WholeFolder& folder,
                    const std::function<std::string(const std::string&)>& words) {
-  std::vector<ShownFigure> shown;
+  Markup all;
   std::vector<std::string> tables;
   for (const HashedFile& file : folder.files()) {
     if (file.path.ends_with(".csv")) tables.push_back(file.path);
     if (!file.path.ends_with(".gp")) continue;
     const std::string name = file.path.substr(0, file.path.size() - 3);
+    const std::string description = words(name), picture = name + ".svg";
+    if (description.empty()) continue;
     const std::string script = read_text(folder.file(file.path));
-    ShownFigure figure{.name = name, .caption = words(name)};
+    Markup data;
     for (const std::string& table : tables)
-      if (script.find("'" + table + "'") != std::string::npos) figure.data.push_back(table);
-    if (!figure.caption.empty()) shown.push_back(figure);
+      if (script.find("'" + table + "'") != std::string::npos)
+        data += text(data.empty() ? " Data: " : ", ") + link(table, table);
+    if (!fs::exists(folder.file(picture))) {
+      all += element(
+          "p", text("The figure " + picture + " could not be drawn here. " + description) + data);
+      continue;
+    }
+    const Markup svg = inline_svg(read_text(folder.file(picture)), name, description);
+    all +=
+        element("figure", element("div", svg, {{"class", class_of(folder.file(picture))}}) +
+                              element("figcaption", text(description) + data + text("; picture: ") +
+                                                        link(picture, picture)));
   }
-  return figures(shown, folder);
+  return all;
 }
 
 Markup making(const Making& made, const std::vector<HashedFile>& inputs,

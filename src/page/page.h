@@ -30,7 +30,7 @@ class Page {
   void answer(const Markup& more) { answer_ += more; }
   void answer(const std::vector<std::string>& sentences);
   // A section with an entry in the contents. An empty body makes no section. A folded one shows its
-  // heading until it is opened, and is not printed before.
+  // heading until it is opened, and is open in print.
   enum class Shown { open, folded };
   void section(const std::string& heading, const Markup& body, Shown shown = Shown::open);
   // A script of our own, which the page runs when it has been read.
@@ -45,22 +45,13 @@ class Page {
   std::string script_;
 };
 
-// A picture of a folder, which is shown inline, with its description and its data.
-struct ShownFigure {
-  std::string name = {};               // of the files NAME.svg and NAME.gp
-  std::string caption = {};            // also what a screen reader says
-  std::vector<std::string> data = {};  // files
-};
-
-// The figures of a folder. For a picture that was not drawn, the files with the data are named.
-[[nodiscard]] Markup figures(const std::vector<ShownFigure>& shown, const WholeFolder& folder);
-
-// The class of a figure: `plot`, which the dark inverts, or `white` where its script, beside it,
-// gives numbers colours.
+// The class of a figure: `plot`, which the dark inverts, and `map` where its script, beside it,
+// gives areas colours that stand for numbers, which stay.
 [[nodiscard]] std::string class_of(const std::string& picture);
 
-// All figures of a folder whose scripts are listed in it, in that order. `words` gives the caption
-// of the figure NAME; an empty caption leaves the figure out.
+// All figures of a folder whose scripts are listed in it, in that order, inline, with the tables
+// that they read. `words` gives the caption of the figure NAME, which a screen reader says as well;
+// an empty caption leaves the figure out. Of a picture that was not drawn its data are named.
 [[nodiscard]] Markup all_figures(const WholeFolder& folder,
                                  const std::function<std::string(const std::string&)>& words);
 

@@ -8,7 +8,9 @@
 #include <cstdint>
 
 #include "base/index.h"
-#include "plot/palette.h"
+#include "base/text.h"
+#include "base/written.h"
+#include "plot/gnuplot_text.h"
 
 namespace palpate::page {
 namespace {
@@ -53,21 +55,6 @@ std::string stored(const std::string& bytes) {
     b = (b + a) % 65521;
   }
   return stream + big_endian((b << 16u) | a);
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* letters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group =
-          (group << 8u) | (at + k < bytes.size() ? static_cast<unsigned char>(bytes[at + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += at + k <= bytes.size() ? letters[(group >> (18 - 6 * k)) & 0x3fu] : '=';
-  }
-  return text;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
+#include "base/written.h"
 #include "plot/gnuplot_text.h"
 
 namespace palpate::plot {
@@ -155,12 +156,6 @@ std::string label(const Series& series) {
                              : series.case_name + " × " + number_text(series.scale);
 }
 
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;  // not the later bytes of a letter
-  }));
-}
-
 // The legend stands below the plot, which keeps its width, and makes the picture higher.
 struct Legend {
   std::vector<std::string> labels = {};  // in the order of the series, each once
@@ -175,12 +170,12 @@ struct Legend {
       fits = fits || !series.fits.empty();
       if (std::find(labels.begin(), labels.end(), label(series)) == labels.end())
         labels.push_back(label(series));
-      longest = std::max(longest, letters(labels.back()));
+      longest = std::max(longest, letter_count(labels.back()));
     }
     if (labels.size() == 1 && !fits) return;
     lines = labels.size() + (fits ? 1 : 0);
     title = figure.legend;
-    if (fits) longest = std::max(longest, letters(figure.fit_label));
+    if (fits) longest = std::max(longest, letter_count(figure.fit_label));
     constexpr std::size_t short_label = 12;
     if (figure.bar && longest <= short_label) return;
     constexpr std::size_t letters_of_a_row = 64, sample = 8;

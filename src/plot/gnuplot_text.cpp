@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "base/text.h"
 
 namespace palpate::plot {
 namespace {
+
+// Nine colours of matplotlib's viridis, evenly apart.
+constexpr std::array<unsigned, 9> viridis{0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
+                                          0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
 
 std::string superscript(int power) {
   constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -38,6 +43,17 @@ std::string gnuplot_quoted(const std::string& text) {
       result += c;
   }
   return result + "'";
+}
+
+std::string key_label(std::string key) {
+  for (const std::string table : {"tissue.", "contact.", "solver."})
+    if (key.starts_with(table)) key.erase(0, table.size());
+  std::replace_if(
+      key.begin(), key.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
+  for (const std::string name : {"young", "poisson"})  // who is meant
+    if (const std::size_t at = key.find(name + " "); at != std::string::npos)
+      key.replace(at, name.size(), capitalized(name) + "'s");
+  return capitalized(key);
 }
 
 std::string gnuplot_head(const std::string& name, const Canvas& canvas) {
@@ -145,6 +161,26 @@ std::string gnuplot_palette(double most) {
     text +=
         (i == 0 ? "" : ", ") + std::to_string(i) + " '#" + palette_colour(most * i / colours) + "'";
   return text + ")\n";
+}
+
+std::array<unsigned char, 3> palette_bytes(double share) {
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(viridis.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
+  const double part = place - static_cast<double>(below);
+  std::array<unsigned char, 3> bytes{};
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    const std::size_t shift = 16 - 8 * k;
+    const double a = (viridis[below] >> shift) & 0xffu;
+    const double b = (viridis[below + 1] >> shift) & 0xffu;
+    bytes[k] = static_cast<unsigned char>(std::lround(a + part * (b - a)));
+  }
+  return bytes;
+}
+
+std::string palette_colour(double share) {
+  std::string text;
+  for (const unsigned char byte : palette_bytes(share)) text += hex_text(byte);
+  return text;
 }
 
 }  // namespace palpate::plot

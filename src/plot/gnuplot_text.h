@@ -1,12 +1,26 @@
-// Parts that all scripts for gnuplot share: the one style of all figures.
+// The style of all figures: colours, and the parts that all scripts for gnuplot share.
 #pragma once
 
 #include <array>
 #include <string>
 
-#include "plot/palette.h"
-
 namespace palpate::plot {
+
+// Okabe and Ito's colours (2008), which colour-blind readers can distinguish; ochre and violet
+// stand for their orange, yellow and light blue, which have a contrast of less than 3 to white.
+// Pages invert figures in the dark, where all have 3 as well. With 7 colours and 6 markers, 42
+// series differ. The first five are those of skin, muscle, ligament, bone and upper leg in every
+// figure.
+inline constexpr std::array<const char*, 7> line_colours{"0072B2", "D55E00", "009E73", "CC79A7",
+                                                         "8A6A00", "6A4FB3", "000000"};
+// The palette below is too light for lines on white from here on.
+inline constexpr double brightest_line = 0.58;
+
+// viridis (van der Walt and Smith, CC0), whose lightness rises evenly, so that it can be read in
+// grey and by the colour-blind: red, green and blue at `share`, 0 to 1.
+[[nodiscard]] std::array<unsigned char, 3> palette_bytes(double share);
+// The same as six hexadecimal digits.
+[[nodiscard]] std::string palette_colour(double share);
 
 inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 
@@ -15,6 +29,10 @@ inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 
 // The value in a row of the CSV column with this name: `column('NAME')`.
 [[nodiscard]] std::string gnuplot_column(const std::string& name);
+
+// A key of a scenario as a label: `tissue.young_modulus` as "Young's modulus", `step.1.to` as "Step
+// 1 to".
+[[nodiscard]] std::string key_label(std::string key);
 
 // The size of a picture in pixels. Texts of 15 pixels stay readable where a telephone shows it at
 // 0.6 of this width.

@@ -35,6 +35,7 @@ struct ScenePicture {
   std::string base;                    // what holds the held faces
   std::vector<Sphere> finger;          // at its first touch
   double travel = 0.0;                 // m, the deepest
+  std::string load;                    // on the top, between plates: `1 kPa`; empty under a finger
   Vec3 touch = Vec3::Zero();           // m, on the surface, where the first slide begins
   std::vector<Vec3> slides;            // m, displacements, each from the end of the previous one
   Vec3 towards = -Vec3::UnitZ();       // the direction of the press

@@ -17,14 +17,6 @@
 namespace palpate::report {
 namespace {
 
-constexpr std::array formats{
-    ExportFormat{"afm-tab", ".tab", "indentation and force", afm_tab_text},
-    ExportFormat{"rheos", ".csv", "stress, strain and time", rheos_text},
-    ExportFormat{"chiaro", ".txt", "time, indentation and force", chiaro_text},
-    ExportFormat{"febio-log", ".txt", "time and any numbers", febio_log_text},
-    ExportFormat{"csv-si", ".csv", "any numbers", csv_si_text},
-};
-
 struct SourceColumn {
   std::size_t index;
   std::string name;
@@ -88,24 +80,30 @@ std::vector<ExportCurve> export_curves(const record::Table& table, const std::st
   return curves;
 }
 
-std::span<const ExportFormat> export_formats() { return formats; }
+namespace {
 
-const ExportColumn& wanted(const ExportCurve& curve, std::string_view column,
-                           std::string_view format) {
-  if (const ExportColumn* found = curve.find(column)) return *found;
-  const auto& row = *std::find_if(formats.begin(), formats.end(),
-                                  [&](const ExportFormat& one) { return one.name == format; });
+[[noreturn]] void refuse_missing(const ExportCurve& curve, const char* column, const char* format,
+                                 const char* needs) {
   std::vector<std::string> names;
   for (const ExportColumn& one : curve.columns) names.push_back(one.name);
-  throw InputError({}, ticked(format) + " needs " + std::string(row.wants) + ", and the curve " +
+  throw InputError({}, ticked(format) + " needs " + needs + ", and the curve " +
                            ticked(curve.name) + " has no " + ticked(column) + ", only " +
                            joined(names, ", ") + "; choose another format, such as `--to csv-si`");
 }
 
+// The column of that name; `needs` are the columns that the format needs.
+const ExportColumn& wanted(const ExportCurve& curve, const char* column, const char* format,
+                           const char* needs) {
+  if (const ExportColumn* found = curve.find(column)) return *found;
+  refuse_missing(curve, column, format, needs);
+}
+
+// RHEOS: stress, strain and time without a header, in the order of its exportcsv.
 std::string rheos_text(const ExportCurve& curve) {
-  const ExportColumn& stress = wanted(curve, "stress", "rheos");
-  const ExportColumn& strain = wanted(curve, "strain", "rheos");
-  const ExportColumn& time = wanted(curve, "time", "rheos");
+  const char* needs = "stress, strain and time";
+  const ExportColumn& stress = wanted(curve, "stress", "rheos", needs);
+  const ExportColumn& strain = wanted(curve, "strain", "rheos", needs);
+  const ExportColumn& time = wanted(curve, "time", "rheos", needs);
   std::string text;
   for (std::size_t i = 0; i < time.values.size(); ++i)
     text += number_text(stress.values[i]) + "," + number_text(strain.values[i]) + "," +
@@ -113,8 +111,9 @@ std::string rheos_text(const ExportCurve& curve) {
   return text;
 }
 
+// FEBio log data: every column except time and step, as values of item 1.
 std::string febio_log_text(const ExportCurve& curve) {
-  const ExportColumn& time = wanted(curve, "time", "febio-log");
+  const ExportColumn& time = wanted(curve, "time", "febio-log", "time and any numbers");
   std::vector<const ExportColumn*> values;
   std::vector<std::string> names;
   for (const ExportColumn& column : curve.columns)
@@ -134,6 +133,7 @@ std::string febio_log_text(const ExportCurve& curve) {
   return text;
 }
 
+// Every column in SI, with units in the names.
 std::string csv_si_text(const ExportCurve& curve) {
   record::Table table;
   for (const ExportColumn& column : curve.columns)
@@ -154,67 +154,53 @@ std::string csv_si_text(const ExportCurve& curve) {
   return record::csv_text(table);
 }
 
-namespace {
-
 // A press in the form of an indenter's data: approach up to the largest force, then retraction.
 struct Press {
-  const ExportColumn* time = nullptr;         // s; null if missing
-  const ExportColumn* indentation = nullptr;  // m
-  const ExportColumn* force = nullptr;        // N
-  const ExportColumn* travel = nullptr;       // m, of the finger; the indentation if missing
+  const ExportColumn* time = nullptr;          // s; null if missing
+  const ExportColumn* indentation = nullptr;   // m
+  const ExportColumn* force = nullptr;         // N
+  const ExportColumn* displacement = nullptr;  // m, of the finger; the indentation if missing
   std::size_t peak = 0;  // row of the largest force, the last row of the approach
   double speed = 0.0;    // m/s, mean of the approach; NaN without a time or an approach
 };
 
-double largest(const std::vector<double>& values) {
-  double found = -std::numeric_limits<double>::infinity();
-  for (const double value : values) found = std::fmax(found, value);
+// The smallest and the largest value that is not missing.
+std::pair<double, double> range_of(const std::vector<double>& values) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::pair found{infinity, -infinity};
+  for (const double value : values)
+    found = {std::fmin(found.first, value), std::fmax(found.second, value)};
   return found;
 }
 
-double smallest(const std::vector<double>& values) {
-  double found = std::numeric_limits<double>::infinity();
-  for (const double value : values) found = std::fmin(found, value);
-  return found;
+double span_of(const std::vector<double>& values) {
+  const auto [low, high] = range_of(values);
+  return high - low;
 }
 
-// `si` in a unit of 1/per SI units, with digits that read back as the same double if there are any.
-std::string scaled_text(double si, double per) {
-  const double value = si * per;
-  double candidate = value;
-  for (const double aside : {0.0, 1.0, -1.0, 2.0, -2.0}) {
-    candidate = value;
-    for (int i = 0; i < std::abs(static_cast<int>(aside)); ++i)
-      candidate = std::nextafter(candidate, aside * std::numeric_limits<double>::infinity());
-    if (candidate / per == si) return number_text(candidate);
-  }
-  return number_text(value);
-}
-
-// Throws InputError with what `format` needs if the curve has no indentation or no force.
-Press press_of(const ExportCurve& curve, std::string_view format) {
+Press press_of(const ExportCurve& curve, const char* format, const char* needs) {
   Press press;
   press.time = curve.find("time");
-  press.indentation = &wanted(curve, "indentation", format);
-  press.force = &wanted(curve, "force", format);
-  press.travel = curve.find("travel");
-  if (press.travel == nullptr) press.travel = press.indentation;
+  press.indentation = &wanted(curve, "indentation", format, needs);
+  press.force = &wanted(curve, "force", format, needs);
+  press.displacement = curve.find("travel");
+  if (press.displacement == nullptr) press.displacement = press.indentation;
   for (std::size_t i = 0; i < press.force->values.size(); ++i)
     if (press.force->values[i] > press.force->values[press.peak]) press.peak = i;
   press.speed = std::numeric_limits<double>::quiet_NaN();
   if (press.time == nullptr || press.peak == 0) return press;
-  const auto& travel = press.travel->values;
+  const auto& displacement = press.displacement->values;
   const auto& time = press.time->values;
-  press.speed = (travel[press.peak] - travel.front()) / (time[press.peak] - time.front());
+  press.speed =
+      (displacement[press.peak] - displacement.front()) / (time[press.peak] - time.front());
   return press;
 }
 
-}  // namespace
-
+// .tab of afmformats: force, segment, time and tip position (decreasing with the indentation).
 // Format: AFM-analysis/afmformats, afm_data.py (_export_tab), fmt_tab.py and meta.py. CR LF,
 // metadata as JSON in comments, column names in the last comment, booleans as in Python.
 std::string afm_tab_text(const ExportCurve& curve) {
-  const Press press = press_of(curve, "afm-tab");
+  const Press press = press_of(curve, "afm-tab", "indentation and force");
   const std::size_t rows = press.force->values.size();
   nlohmann::json metadata;
   metadata["curve id"] = curve.name;
@@ -224,12 +210,11 @@ std::string afm_tab_text(const ExportCurve& curve) {
   metadata["instrument"] = "simulated";
   metadata["point count"] = rows;
   metadata["session id"] = curve.source;
-  metadata["setpoint"] = largest(press.force->values);
+  metadata["setpoint"] = range_of(press.force->values).second;
   metadata["software"] = "palpate";
   metadata["software version"] = this_build().version;
-  metadata["z range"] = largest(press.travel->values) - smallest(press.travel->values);
-  if (press.time != nullptr)
-    metadata["duration"] = largest(press.time->values) - smallest(press.time->values);
+  metadata["z range"] = span_of(press.displacement->values);
+  if (press.time != nullptr) metadata["duration"] = span_of(press.time->values);
   if (std::isfinite(press.speed)) metadata["speed approach"] = press.speed;
 
   const std::string end = "\r\n";
@@ -249,17 +234,17 @@ std::string afm_tab_text(const ExportCurve& curve) {
   return text;
 }
 
+std::string scaled_text(double si, double per) { return number_text(si * per); }
+
+// Text file of an Optics11 Chiaro in ISO 8859-1, which afmformats (fmt_chiaro_txt) can read.
 // Format: AFM-analysis/afmformats, fmt_chiaro_txt.py. Keys and values separated by tabs, column
 // names, numbers; ISO 8859-1. There is no cantilever: its deflection is 0, its stiffness unknown.
 std::string chiaro_text(const ExportCurve& curve) {
-  const Press press = press_of(curve, "chiaro");
-  if (press.time == nullptr)
-    throw InputError({}, "`chiaro` needs time, indentation and force, and the curve `" +
-                             curve.name +
-                             "` has no `time`; choose another format, such as `--to csv-si`");
+  const char* needs = "time, indentation and force";
+  const Press press = press_of(curve, "chiaro", needs);
+  if (press.time == nullptr) refuse_missing(curve, "time", "chiaro", needs);
   const std::string end = "\r\n";
   const std::string micro = "\xB5";
-  const double z_range = largest(press.travel->values) - smallest(press.travel->values);
   const auto line = [&](const std::string& key, const std::string& value) {
     return key + "\t" + value + end;
   };
@@ -269,15 +254,25 @@ std::string chiaro_text(const ExportCurve& curve) {
   text += line("Sample", curve.name) + line("k (N/m)", "nan");
   text += line("Tip radius (um)",
                curve.tip_radius ? scaled_text(*curve.tip_radius, 1e6) : std::string("nan"));
-  text += line("Max load (" + micro + "N)", scaled_text(largest(press.force->values), 1e6));
-  text += line("Piezo position (nm) (Measured)", scaled_text(z_range, 1e9));
+  text += line("Max load (" + micro + "N)", scaled_text(range_of(press.force->values).second, 1e6));
+  text +=
+      line("Piezo position (nm) (Measured)", scaled_text(span_of(press.displacement->values), 1e9));
   text += line("Piezo speed  (" + micro + "m/s)", scaled_text(press.speed, 1e6)) + end;
   text += "Time (s)\tLoad (uN)\tIndentation (nm)\tCantilever (nm)\tPiezo (nm)" + end;
   for (std::size_t i = 0; i < press.force->values.size(); ++i)
     text += number_text(press.time->values[i]) + "\t" + scaled_text(press.force->values[i], 1e6) +
             "\t" + scaled_text(press.indentation->values[i], 1e9) + "\t0\t" +
-            scaled_text(press.travel->values[i], 1e9) + end;
+            scaled_text(press.displacement->values[i], 1e9) + end;
   return text;
 }
+
+constexpr std::array formats{
+    ExportFormat{"afm-tab", ".tab", afm_tab_text}, ExportFormat{"rheos", ".csv", rheos_text},
+    ExportFormat{"chiaro", ".txt", chiaro_text}, ExportFormat{"febio-log", ".txt", febio_log_text},
+    ExportFormat{"csv-si", ".csv", csv_si_text}};
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() { return formats; }
 
 }  // namespace palpate::report

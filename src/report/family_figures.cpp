@@ -15,26 +15,11 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "plot/figure.h"
+#include "plot/gnuplot_text.h"
 #include "scenario/family.h"
 
 namespace palpate::report {
 namespace {
-
-// The file and columns that a figure uses for a series that names none.
-struct Columns {
-  const char* file;
-  const char* x;
-  const char* y;
-};
-
-std::vector<plot::Series> completed(std::vector<plot::Series> series, const Columns& columns) {
-  for (plot::Series& each : series) {
-    if (each.csv_file.empty()) each.csv_file = columns.file;
-    if (each.x_column.empty()) each.x_column = columns.x;
-    if (each.y_column.empty()) each.y_column = columns.y;
-  }
-  return series;
-}
 
 // Puts negative numbers into brackets, so that they can follow an operator.
 std::string operand(double number) {
@@ -54,89 +39,49 @@ std::string formula(fit::Model model, const std::vector<std::string>& p) {
   return {};
 }
 
+// A kind of figure: the file and columns of a series that names none, and the labels.
+struct FigureRow {
+  const char* name;
+  const char* file;
+  const char *x, *y;
+  const char *x_label, *y_label;
+  bool from_zero = true;
+  const char* fit_label = "";
+};
+// In the order of Kind.
+constexpr const char* pressed = "force_indentation.csv";
+constexpr const char* strained = "strain_time.csv";
+constexpr std::array<FigureRow, 9> figure_rows{{
+    {"force_indentation", pressed, "travel_mm", "force_N", "Displacement (mm)", "Force F (N)"},
+    {"force_indentation", pressed, "indentation_mm", "force_N", "Effective depth h (mm)",
+     "Force F (N)"},
+    {"force_curvature", "findings.csv", "local_curvature_per_m", "peak_force_N",
+     "Mean curvature, convex positive (1/m)", "Force F (N)"},
+    {"force_slide", pressed, "slide_mm", "force_N", "Slide (mm)", "Force F (N)"},
+    {"displacement_slide", pressed, "slide_mm", "travel_mm", "Slide (mm)", "Displacement (mm)",
+     false},
+    {"strain_time", strained, "time_s", "strain", "Time (s)", "Strain", true, "Kelvin-Voigt fit"},
+    {"stress_time", strained, "time_s", "stress_kPa", "Time (s)", "Stress (kPa)", true,
+     "Standard linear solid fit"},
+    {"stress_strain", strained, "strain", "stress_kPa", "Strain", "Stress (kPa)"},
+    {"force_time", pressed, "time_s", "force_N", "Time (s)", "Force F (N)"},
+}};
+
 }  // namespace
 
-plot::Figure figure_force_indentation(std::vector<plot::Series> series) {
-  plot::Figure figure = figure_force_depth({});
-  figure.x_label = "Displacement (mm)";
-  figure.series = completed(std::move(series), {"force_indentation.csv", "travel_mm", "force_N"});
-  return figure;
-}
-
-plot::Figure figure_force_depth(std::vector<plot::Series> series) {
-  return {.name = "figure_force_indentation",
-          .title = "Palpation force against indentation",
-          .x_label = "Effective depth h (mm)",
-          .y_label = "Force F (N)",
-          .from_zero = true,
-          .series =
-              completed(std::move(series), {"force_indentation.csv", "indentation_mm", "force_N"})};
-}
-
-plot::Figure figure_force_curvature(std::vector<plot::Series> series) {
-  return {.name = "figure_force_curvature",
-          .title = "Palpation force against local curvature",
-          .x_label = "Mean curvature, convex positive (1/m)",
-          .y_label = "Force F (N)",
-          .from_zero = true,
-          .series = completed(std::move(series),
-                              {"findings.csv", "local_curvature_per_m", "peak_force_N"})};
-}
-
-plot::Figure figure_force_slide(std::vector<plot::Series> series) {
-  return {.name = "figure_force_slide",
-          .title = "Force along the slide",
-          .x_label = "Slide (mm)",
-          .y_label = "Force F (N)",
-          .from_zero = true,
-          .series = completed(std::move(series), {"force_indentation.csv", "slide_mm", "force_N"})};
-}
-
-plot::Figure figure_displacement_slide(std::vector<plot::Series> series) {
-  return {
-      .name = "figure_displacement_slide",
-      .title = "Displacement along the slide at the same force",
-      .x_label = "Slide (mm)",
-      .y_label = "Displacement (mm)",
-      .series = completed(std::move(series), {"force_indentation.csv", "slide_mm", "travel_mm"})};
-}
-
-plot::Figure figure_strain_time(std::vector<plot::Series> series) {
-  return {.name = "figure_strain_time",
-          .title = "Strain against time",
-          .x_label = "Time (s)",
-          .y_label = "Strain",
-          .fit_label = "Kelvin-Voigt fit",
-          .from_zero = true,
-          .series = completed(std::move(series), {"strain_time.csv", "time_s", "strain"})};
-}
-
-plot::Figure figure_stress_time(std::vector<plot::Series> series) {
-  return {.name = "figure_stress_time",
-          .title = "Stress against time",
-          .x_label = "Time (s)",
-          .y_label = "Stress (kPa)",
-          .fit_label = "Standard linear solid fit",
-          .from_zero = true,
-          .series = completed(std::move(series), {"strain_time.csv", "time_s", "stress_kPa"})};
-}
-
-plot::Figure figure_stress_strain(std::vector<plot::Series> series) {
-  return {.name = "figure_stress_strain",
-          .title = "Stress against strain",
-          .x_label = "Strain",
-          .y_label = "Stress (kPa)",
-          .from_zero = true,
-          .series = completed(std::move(series), {"strain_time.csv", "strain", "stress_kPa"})};
-}
-
-plot::Figure figure_force_time(std::vector<plot::Series> series) {
-  return {.name = "figure_force_time",
-          .title = "Force against time",
-          .x_label = "Time (s)",
-          .y_label = "Force F (N)",
-          .from_zero = true,
-          .series = completed(std::move(series), {"force_indentation.csv", "time_s", "force_N"})};
+plot::Figure figure_of(Kind kind, std::vector<plot::Series> series) {
+  const FigureRow& row = figure_rows[static_cast<std::size_t>(kind)];
+  for (plot::Series& each : series) {
+    if (each.csv_file.empty()) each.csv_file = row.file;
+    if (each.x_column.empty()) each.x_column = row.x;
+    if (each.y_column.empty()) each.y_column = row.y;
+  }
+  return {.name = std::string("figure_") + row.name,
+          .x_label = row.x_label,
+          .y_label = row.y_label,
+          .fit_label = row.fit_label,
+          .from_zero = row.from_zero,
+          .series = std::move(series)};
 }
 
 std::optional<plot::FittedCurve> fitted_curve(const fit::Fit& fit) {
@@ -157,6 +102,12 @@ struct CaseColours {
   // By the case's name: the number, and a label made of the other swept values.
   std::map<std::string, std::pair<double, std::string>> cases = {};
 };
+
+// The names of keys, over a legend.
+std::string labels_of(std::vector<std::string> keys) {
+  for (std::string& key : keys) key = plot::key_label(key);
+  return joined(keys, ", ");
+}
 
 constexpr std::size_t most_named_cases = 8;
 constexpr std::size_t most_labels = 12;
@@ -201,17 +152,16 @@ std::optional<CaseColours> case_colours(const scenario::Family& family) {
   if (!best) return std::nullopt;
   CaseColours colours;
   const auto [low, high] = std::minmax_element(best->values.begin(), best->values.end());
-  colours.bar = {.label = family.cases.front().swept[key].first +
+  colours.bar = {.label = plot::key_label(family.cases.front().swept[key].first) +
                           (best->unit.empty() ? "" : " (" + best->unit + ")"),
                  .low = *low,
                  .high = *high};
   constexpr double wide = 30.0;  // as for the axes of a figure
   if (*low > 0.0 && *high > wide * *low) colours.bar.scale = plot::Axis::logarithmic;
   std::set<std::string> labels;
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < family.cases.front().swept.size(); ++k)
-    if (k != key) names.push_back(family.cases.front().swept[k].first);
-  colours.others = joined(names, ", ");
+  std::vector<std::string> keys = family.design.keys();
+  keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(key));
+  colours.others = labels_of(keys);
   for (std::size_t i = 0; i < family.cases.size(); ++i) {
     std::vector<std::string> others;
     for (std::size_t k = 0; k < family.cases[i].swept.size(); ++k)
@@ -268,8 +218,7 @@ std::map<std::string, std::size_t> tissue_colours(const scenario::Family& family
 
 // One series per case, without fits; if there are many cases, coloured by a swept number. Of more
 // than most_curves cases, as many evenly chosen ones, which the title says.
-plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
-                        const scenario::Family& family, const Records& records) {
+plot::Figure with_cases(Kind kind, const scenario::Family& family, const Records& records) {
   const std::optional<CaseColours> colours = case_colours(family);
   std::vector<plot::Series> all;
   const std::size_t drawn = std::min(records.size(), most_curves);
@@ -289,9 +238,9 @@ plot::Figure with_cases(plot::Figure (*figure)(std::vector<plot::Series>),
     }
     all.push_back(series);
   }
-  plot::Figure made = figure(std::move(all));
+  plot::Figure made = figure_of(kind, std::move(all));
   if (colours) made.bar = colours->bar;
-  made.legend = colours ? colours->others : joined(family.design.keys(), ", ");
+  made.legend = colours ? colours->others : labels_of(family.design.keys());
   return made;
 }
 
@@ -429,8 +378,8 @@ std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
                      .column = "tissue.material",
                      .colour = tissue_colour(material, all.size())});
   }
-  plot::Figure figure = figure_force_curvature(all);
-  if (all.size() > 1) figure.legend = "tissue.material";
+  plot::Figure figure = figure_of(Kind::force_curvature, all);
+  if (all.size() > 1) figure.legend = plot::key_label("tissue.material");
   choose_axis(figure, forces, 1.5);
   return figure;
 }
@@ -447,7 +396,7 @@ std::optional<plot::Figure> live_figure(const Records& records) {
   std::vector<plot::Series> all{{.y_column = "force_N", .label = "model"}};
   if (measured) all.push_back({.y_column = "measured_force_N", .label = "measured"});
   if (sent) all.push_back({.y_column = "sent_force_N", .label = "sent to the arm"});
-  plot::Figure figure = figure_force_time(all);
+  plot::Figure figure = figure_of(Kind::force_time, all);
   figure.name = "figure_live_force";
   return figure;
 }
@@ -462,7 +411,7 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
   // displacement, as in every test standard: a modulus read off the other would be wrong on a mesh.
   const bool fitted = family.base.output.regression != scenario::Output::Regression::none;
   figures.push_back(
-      with_cases(fitted ? figure_force_depth : figure_force_indentation, family, records));
+      with_cases(fitted ? Kind::force_depth : Kind::force_displacement, family, records));
   add_regression(figures.back(), family, fits);
   for (const record::CaseRecord& record : records)
     if (has_measured_force(record)) {
@@ -476,14 +425,14 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
     }
   const bool live = std::any_of(records.begin(), records.end(), has_measured_force);
   if (has_step<scenario::Hold>(family.base) && !live) {  // that of a live run is figure_live_force
-    figures.push_back(with_cases(figure_force_time, family, records));
+    figures.push_back(with_cases(Kind::force_time, family, records));
     choose_axis(figures.back(), forces, two_decades);
   }
   if (const int slide = first_step<scenario::Slide>(family.base)) {
     const auto& step = std::get<scenario::Slide>(family.base.steps[as_index(slide) - 1]);
     const bool keeps_force = step.keep == scenario::Slide::Keep::force;
     plot::Figure along =
-        with_cases(keeps_force ? figure_displacement_slide : figure_force_slide, family, records);
+        with_cases(keeps_force ? Kind::displacement_slide : Kind::force_slide, family, records);
     for (plot::Series& series : along.series) series.step = slide;
     if (!keeps_force) choose_axis(along, forces, two_decades);
     figures.push_back(along);
@@ -511,7 +460,7 @@ std::vector<plot::Figure> uniform_figures(const scenario::Family& family, const 
   constexpr double two_decades = 100.0;
   if (has_step<scenario::Creep>(family.base)) {
     const bool solid = family.base.tissue.viscosity == tissue::Viscosity::standard_linear_solid;
-    plot::Figure figure = with_cases(figure_strain_time, family, records);
+    plot::Figure figure = with_cases(Kind::strain_time, family, records);
     add_fits(figure, fits, "creep", {}, "recovery");
     figure.fit_label = solid ? "Standard linear solid fit" : "Kelvin-Voigt fit";
     choose_axis(figure,
@@ -527,9 +476,9 @@ std::vector<plot::Figure> uniform_figures(const scenario::Family& family, const 
     figures.push_back(figure);
   };
   if (has_step<scenario::Compress>(family.base))
-    of_stress(with_cases(figure_stress_strain, family, records));
+    of_stress(with_cases(Kind::stress_strain, family, records));
   if (has_step<scenario::Relax>(family.base) || holds_a_compression(family.base)) {
-    plot::Figure figure = with_cases(figure_stress_time, family, records);
+    plot::Figure figure = with_cases(Kind::stress_time, family, records);
     add_fits(figure, fits, "relaxation");
     of_stress(figure);
   }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -57,14 +58,6 @@ std::string compiler() {
 
 }  // namespace
 
-Machine this_machine() {
-  utsname names{};
-  const bool known = ::uname(&names) == 0;
-  const std::string kernel =
-      known ? std::string(names.sysname) + " " + names.release + " " + names.machine : "unknown";
-  return {cpu_model(), usable_cores(), kernel};
-}
-
 Build this_build() { return {PALPATE_VERSION, PALPATE_BUILD_TYPE, compiler(), PALPATE_CXX_FLAGS}; }
 
 std::string utc_text(long long seconds) {
@@ -94,25 +87,24 @@ Json files_json(const std::vector<HashedFile>& files) {
   return list;
 }
 
-Json case_json(const CaseEntry& each) {
-  Json json{{"name", each.name}};
-  if (each.state == CaseEntry::State::failed) json["why"] = each.why;
-  json["timings_s"] = Json::object();
-  for (const auto& [stage, seconds] : each.timings) json["timings_s"][stage] = seconds;
-  return json;
-}
-
-Json cases_json(const std::vector<CaseEntry>& cases, CaseEntry::State state) {
+// The finished cases, whose `why` is empty, or the others.
+template <class Wanted>
+Json cases_json(const std::vector<CaseEntry>& cases, const Wanted& wanted) {
   Json list = Json::array();
-  for (const CaseEntry& each : cases)
-    if (each.state == state) list.push_back(case_json(each));
+  for (const CaseEntry& each : cases) {
+    if (!wanted(each)) continue;
+    Json json{{"name", each.name}};
+    if (!each.why.empty()) json["why"] = each.why;
+    json["timings_s"] = {{"run", each.seconds}};
+    list.push_back(json);
+  }
   return list;
 }
 
-Json libraries_json(const std::map<std::string, std::string>& libraries) {
-  Json json = Json::object();
-  for (const auto& [name, version] : libraries) json[name] = version;
-  return json;
+std::string kernel() {
+  utsname names{};
+  if (::uname(&names) != 0) return "unknown";
+  return std::string(names.sysname) + " " + names.release + " " + names.machine;
 }
 
 std::string dotted(int major, int minor, int patch) {
@@ -121,45 +113,30 @@ std::string dotted(int major, int minor, int patch) {
 
 }  // namespace
 
-std::map<std::string, std::string> library_versions(const std::string& tetgen) {
-  return {{"eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-          {"ceres", fit::ceres_version()},
-          {"openexr", exr_version()},
-          {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                   NLOHMANN_JSON_VERSION_PATCH)},
-          {"tetgen", tetgen}};
-}
-
-Manifest begin_manifest(const Origin& origin, const std::vector<scenario::InputFile>& inputs) {
-  Manifest manifest;
-  manifest.build = this_build();
-  manifest.libraries = library_versions("1.5");
-  manifest.machine = this_machine();
-  manifest.argv = origin.argv;
-  manifest.started = origin.started;
-  manifest.ended = utc_now();
-  for (const scenario::InputFile& input : inputs)
-    manifest.inputs.push_back({input.name, sha256(input.content)});
-  return manifest;
-}
-
 std::string manifest_text(const Manifest& manifest) {
+  const Build build = this_build();
   Json json;
-  json["program"] = {{"name", "palpate"},
-                     {"version", manifest.build.version},
-                     {"build_type", manifest.build.type},
-                     {"compiler", manifest.build.compiler},
-                     {"flags", manifest.build.flags},
-                     {"libraries", libraries_json(manifest.libraries)}};
-  json["machine"] = {{"cpu", manifest.machine.cpu},
-                     {"cores", manifest.machine.cores},
-                     {"kernel", manifest.machine.kernel}};
-  json["argv"] = manifest.argv;
-  json["started"] = manifest.started;
-  json["ended"] = manifest.ended;
+  json["program"] = {
+      {"name", "palpate"},
+      {"version", build.version},
+      {"build_type", build.type},
+      {"compiler", build.compiler},
+      {"flags", build.flags},
+      {"libraries",
+       {{"ceres", fit::ceres_version()},
+        {"eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+        {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                 NLOHMANN_JSON_VERSION_PATCH)},
+        {"openexr", exr_version()},
+        {"tetgen", "1.5"}}}};
+  json["machine"] = {{"cpu", cpu_model()}, {"cores", usable_cores()}, {"kernel", kernel()}};
+  json["argv"] = manifest.origin.argv;
+  json["started"] = manifest.origin.started;
+  json["ended"] = utc_now();
   json["complete"] = manifest.complete;
-  json["finished"] = cases_json(manifest.cases, CaseEntry::State::finished);
-  json["failed"] = cases_json(manifest.cases, CaseEntry::State::failed);
+  const auto finished = [](const CaseEntry& one) { return one.why.empty(); };
+  json["finished"] = cases_json(manifest.cases, finished);
+  json["failed"] = cases_json(manifest.cases, std::not_fn(finished));
   json["inputs"] = files_json(manifest.inputs);
   json["outputs"] = files_json(manifest.outputs);
   // A path need not be UTF-8; invalid bytes become U+FFFD.

@@ -1,21 +1,12 @@
 // run.json: the program, machine, inputs, outputs and times of a result.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include "base/files.h"
-#include "scenario/family.h"
 
 namespace palpate::report {
-
-struct Machine {
-  std::string cpu = {};  // model name in /proc/cpuinfo
-  int cores = 0;         // number that this process may use; 0 if unknown
-  std::string kernel = {};
-};
-[[nodiscard]] Machine this_machine();
 
 struct Build {
   std::string version = {};
@@ -38,35 +29,21 @@ struct Origin {
 };
 
 struct CaseEntry {
-  enum class State { finished, failed };
-
   std::string name = {};
-  State state = State::finished;
-  std::string why = {};                        // reason of a failure
-  std::map<std::string, double> timings = {};  // s, by stage
+  std::string why = {};  // reason of a failure; empty: finished
+  double seconds = 0.0;
 };
 
 struct Manifest {
-  Build build = {};
-  std::map<std::string, std::string> libraries = {};  // versions by name
-  Machine machine = {};
-  std::vector<std::string> argv = {};
-  std::string started = {};  // UTC, in the format of utc_now
-  std::string ended = {};
+  Origin origin = {};
   std::vector<HashedFile> inputs = {};
   std::vector<HashedFile> outputs = {};
   std::vector<CaseEntry> cases = {};
   bool complete = false;
 };
 
-// Versions of Eigen, Ceres, OpenEXR, nlohmann json and TetGen; that of TetGen is given.
-[[nodiscard]] std::map<std::string, std::string> library_versions(const std::string& tetgen);
-
-// Returns a manifest with build, libraries, machine, command, times and the hashes of the inputs.
-[[nodiscard]] Manifest begin_manifest(const Origin& origin,
-                                      const std::vector<scenario::InputFile>& inputs);
-
-// The manifest as JSON with keys in a fixed order, indented by two spaces, with `\n` at the end.
+// The manifest as JSON with keys in a fixed order, indented by two spaces, with `\n` at the end:
+// besides what it holds, this build, its libraries and this machine.
 [[nodiscard]] std::string manifest_text(const Manifest& manifest);
 
 }  // namespace palpate::report

@@ -289,7 +289,7 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
                        " of the pressure maps, meshes and pictures were not written; run the "
                        "scenario again");
 
-  // A gauge without travel leaves no rows of the model.
+  // A gauge without displacement leaves no rows of the model.
   const bool has_rows = std::any_of(records.begin(), records.end(), [](const auto& record) {
     return !record.contact.empty() || !record.strain.empty();
   });
@@ -306,15 +306,11 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
     write_run_page({.family = *family_, .records = records, .fits = fits, .figures = figures},
                    folder_);
 
-  Manifest manifest = begin_manifest(origin, family_->inputs);
-  manifest.outputs = folder_.files();
+  Manifest manifest{.origin = origin, .outputs = folder_.files()};
+  for (const scenario::InputFile& input : family_->inputs)
+    manifest.inputs.push_back({input.name, sha256(input.content)});
   for (const record::CaseRecord& record : records)
-    manifest.cases.push_back({record.name,
-                              record.outcome == record::Outcome::completed
-                                  ? CaseEntry::State::finished
-                                  : CaseEntry::State::failed,
-                              record.reason,
-                              {{"run", record.seconds}}});
+    manifest.cases.push_back({record.name, record.reason, record.seconds});
   manifest.complete = records.size() == family_->cases.size() && extras.omitted() == 0;
   folder_.write("run.json", manifest_text(manifest));
 

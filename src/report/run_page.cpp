@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "base/written.h"
 #include "fit/case_fits.h"
 #include "page/html.h"
 #include "page/page.h"
@@ -141,13 +142,26 @@ FindingWords words_of_finding(const std::string& name) {
   return {.group = finding_groups().size() - 1, .label = name};
 }
 
-std::string finding_text(const record::Finding& finding) {
+std::string finding_text(const record::Finding& finding, int digits) {
   if (const auto* word = std::get_if<std::string>(&finding.value)) return *word;
   const auto* number = std::get_if<double>(&finding.value);
   if (number == nullptr) return "–";
   const std::string unit = words_of_finding(finding.name).unit;
-  if (unit == "%") return plot::tick_text(100.0 * *number, 3) + " %";
-  return plot::tick_text(*number, 4) + (unit.empty() ? "" : " " + unit);
+  if (unit == "%") return plot::tick_text(100.0 * *number, std::min(digits, 3)) + " %";
+  return plot::tick_text(*number, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+int warranted_digits(const record::Answer& answer) {
+  const double error = answer.stated_error.value_or(0.05);
+  return error > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 2, 4) : 4;
+}
+
+std::string warranted_text(double value, double low, double high) {
+  const double half = 0.5 * (high - low);
+  if (!std::isfinite(half) || half <= 0.0 || value == 0.0) return rounded_text(value);
+  const int digits = static_cast<int>(std::floor(std::log10(std::abs(value)))) -
+                     static_cast<int>(std::floor(std::log10(half))) + 2;
+  return rounded_text(value, std::clamp(digits, 1, 4));
 }
 
 double finding_number(const record::CaseRecord& record, std::string_view name) {
@@ -361,18 +375,6 @@ std::string figure_words(const plot::Figure& figure) {
   return words + ".";
 }
 
-Markup figures(const RunShown& shown, const WholeFolder& folder) {
-  std::vector<page::ShownFigure> all;
-  for (const plot::Figure& figure : shown.figures) {
-    std::vector<std::string> data;
-    for (const plot::Series& series : figure.series)
-      if (std::find(data.begin(), data.end(), series.csv_file) == data.end())
-        data.push_back(series.csv_file);
-    all.push_back({figure.name, figure_words(figure), data});
-  }
-  return page::figures(all, folder);
-}
-
 // One row per finding that is known, one column per case.
 Markup findings_by_case(const Records& records) {
   Markup all;
@@ -398,7 +400,8 @@ Markup findings_by_case(const Records& records) {
                          [&](const record::Finding& finding) { return finding.name == name; });
         const bool known =
             found != record.findings.end() && !std::holds_alternative<std::monostate>(found->value);
-        row.push_back(known ? record::Cell(finding_text(*found)) : record::Cell());
+        const int digits = group == peak ? warranted_digits(record.answer) : 4;
+        row.push_back(known ? record::Cell(finding_text(*found, digits)) : record::Cell());
       }
       const bool empty = std::all_of(row.begin() + 1, row.end(), [](const record::Cell& cell) {
         return std::holds_alternative<std::monostate>(cell);
@@ -413,22 +416,13 @@ Markup findings_by_case(const Records& records) {
                                 page::link("findings.csv", "findings.csv") + text("."));
 }
 
-// An estimate with the digits that its interval gives it.
-std::string digits_of(double value, double low, double high) {
-  const double half = 0.5 * (high - low);
-  if (!std::isfinite(half) || half <= 0.0 || value == 0.0) return rounded_text(value);
-  const int digits = static_cast<int>(std::floor(std::log10(std::abs(value)))) -
-                     static_cast<int>(std::floor(std::log10(half))) + 2;
-  return rounded_text(value, std::clamp(digits, 1, 6));
-}
-
 Markup fits(const std::vector<fit::NamedFit>& fits) {
   record::Table table{{"case", "curve", "formula", "parameter", "estimate", "95 % interval", "R²"},
                       {}};
   for (const fit::NamedFit& named : fits)
     for (const fit::Estimate& one : named.fit.parameters) {
       const auto number = [&](double value) {
-        return digits_of(value, one.ci95_low, one.ci95_high);
+        return warranted_text(value, one.ci95_low, one.ci95_high);
       };
       const std::string unit = one.unit.empty() ? "" : " " + one.unit;
       table.rows.push_back(
@@ -436,7 +430,7 @@ Markup fits(const std::vector<fit::NamedFit>& fits) {
            number(one.estimate) + unit,
            std::isfinite(one.ci95_low) ? number(one.ci95_low) + " to " + number(one.ci95_high)
                                        : std::string("unknown"),
-           rounded_text(named.fit.r2, 5)});
+           rounded_text(named.fit.r2)});
     }
   if (table.rows.empty()) return {};
   constexpr std::size_t most = 60;
@@ -455,18 +449,29 @@ Markup warnings(const Records& records) {
   return items.empty() ? items : element("ul", items);
 }
 
+// A map without contact, as after a retraction, is told and not shown.
 Markup maps(const Records& records) {
   constexpr std::size_t most = 12;
   Markup pictures;
   std::size_t count = 0;
+  std::vector<std::string> released;
   for (const record::CaseRecord& record : records)
-    for (const record::PressureMap& map : record.maps)
-      if (count++ < most) pictures += map_picture(map, records.size() > 1 ? record.name : "");
-  if (count == 0) return {};
-  Markup all = element("p",
-                       "Pressure of the finger on the tissue at the end of each step, seen "
-                       "from above; without colour: no contact.") +
-               element("div", pictures, {{"class", "maps"}});
+    for (const record::PressureMap& map : record.maps) {
+      const std::string name = records.size() > 1 ? record.name : "";
+      if (!(map.contact_force > 0.0))
+        released.push_back((name.empty() ? "step " : name + ", step ") + std::to_string(map.step));
+      else if (count++ < most)
+        pictures += map_picture(map, name);
+    }
+  Markup all;
+  if (count > 0)
+    all = element("p",
+                  "Pressure of the finger on the tissue at the end of each step, seen from above; "
+                  "without colour: no contact.") +
+          element("div", pictures, {{"class", "maps"}});
+  if (!released.empty())
+    all += page::paragraphs(
+        {"without contact at its end, and so without a picture: " + joined(released, "; ")});
   if (count > most)
     all += element("p", "The first " + std::to_string(most) + " of " + std::to_string(count) +
                             " maps; all of them are in the files pressure_NNN.exr.");
@@ -489,21 +494,20 @@ std::string neglected(const record::Answer& answer) {
   const std::string_view other = " Also neglected: ";
   std::string text = answer.neglected.substr(0, answer.neglected.find(other));
   if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
-  int others = 0;
+  std::size_t others = 0;
   for (std::size_t at = answer.neglected.find(other); at != std::string::npos;
        at = answer.neglected.find(other, at + 1))
     ++others;
   if (text.ends_with('.')) text.pop_back();
-  if (others > 0)
-    text +=
-        " (and " + std::to_string(others) + (others == 1 ? " other effect)" : " other effects)");
+  if (others > 0) text += " (and " + count_text(others, "other effect") + ")";
   return text;
 }
 
 // `1.17 N`
 std::string peak_text(const record::CaseRecord& record) {
   const auto peak = record::peak_of(record);
-  return peak ? rounded_text(peak->value, 3) + peak->unit : "no result";
+  return peak ? rounded_text(peak->value, warranted_digits(record.answer)) + peak->unit
+              : "no result";
 }
 
 // `diverged at 0.0574 s`
@@ -575,8 +579,7 @@ std::string tested(const scenario::Case& one, const record::CaseRecord& record) 
                                   3) +
                      " kPa, nu " + rounded_text(scenario::poisson_ratio(one), 3);
   if (const std::size_t regions = one.scenario.regions.size(); regions > 0)
-    text += ", with " + std::to_string(regions) + (regions == 1 ? " region" : " regions") +
-            " of other tissue";
+    text += ", with " + count_text(regions, "region") + " of other tissue";
   const double depth = finding_number(record, "peak_travel_mm");
   if (std::isfinite(depth))
     text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one);
@@ -671,7 +674,12 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   for (const record::CaseRecord& record : records)
     if (!record.answer.verdict.empty())
       page.answer({"Beside the device: " + record.answer.verdict + "."});
-  page.section("Figures", figures(shown, folder));
+  page.section("Figures", page::all_figures(folder, [&](const std::string& name) {
+                 const auto figure =
+                     std::find_if(shown.figures.begin(), shown.figures.end(),
+                                  [&](const plot::Figure& one) { return one.name == name; });
+                 return figure == shown.figures.end() ? "" : figure_words(*figure);
+               }));
   if (!records.empty() && !records.front().picture.faces.empty()) {
     page.section("Scene", scene_view(records.front().picture, family.title));
     page.script(scene_script());

@@ -29,8 +29,14 @@ struct FindingWords {
 };
 [[nodiscard]] FindingWords words_of_finding(const std::string& name);
 
-// The value of a finding as on a page: four digits, shares in per cent, and its unit.
-[[nodiscard]] std::string finding_text(const record::Finding& finding);
+// The value of a finding as on a page: so many digits, shares in per cent, and its unit.
+[[nodiscard]] std::string finding_text(const record::Finding& finding, int digits = 4);
+
+// As many digits of a force or strain as its stated error warrants: two at 20 %, three at 5 %, four
+// below 1 %, and three where none is stated.
+[[nodiscard]] int warranted_digits(const record::Answer& answer);
+// An estimate with as many digits as its interval warrants, four at most.
+[[nodiscard]] std::string warranted_text(double value, double low, double high);
 
 // A number of a record's findings; NaN if the record has no such number.
 [[nodiscard]] double finding_number(const record::CaseRecord& record, std::string_view name);

@@ -14,6 +14,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "base/written.h"
 #include "page/html.h"
 #include "page/page.h"
 
@@ -26,7 +27,7 @@ using Colour = std::array<double, 3>;  // red, green, blue, 0 to 255
 
 constexpr double width = 800.0, height = 640.0;  // px, of the page
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-constexpr double margin = 60.0, head = 100.0, closest_point = 90.0;
+constexpr double margin = 60.0, head = 100.0, foot = 40.0;  // px
 
 // Colours by region: those of skin, muscle and bone, then others.
 constexpr std::array<Colour, 6> palette{{{236, 188, 160},
@@ -51,21 +52,6 @@ std::string hex(const Colour& colour, double brightness) {
 
 // Rounded to a tenth of a pixel.
 std::string px(double value) { return number_text(std::round(10.0 * value) / 10.0 + 0.0); }
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char letter : text) {
-    if (letter == '&')
-      safe += "&amp;";
-    else if (letter == '<')
-      safe += "&lt;";
-    else if (letter == '>')
-      safe += "&gt;";
-    else  // XML permits no control characters
-      safe += static_cast<unsigned char>(letter) < 0x20 ? ' ' : letter;
-  }
-  return safe;
-}
 
 struct Point {
   double x = 0.0, y = 0.0;  // px, y downwards
@@ -111,9 +97,9 @@ View fitting(const ScenePicture& picture, const SceneFrame& frame) {
   Vec3 at = picture.touch;
   for (const Vec3& slide : picture.slides) take(at += slide, 0.0);
   view.scale = std::min((width - 2.0 * margin) / (most_right - left),
-                        (height - head - closest_point) / (top - bottom));
+                        (height - head - foot) / (top - bottom));
   view.left = 0.5 * (left + most_right - width / view.scale);
-  view.top = 0.5 * (top + bottom + (height + head - closest_point) / view.scale);
+  view.top = 0.5 * (top + bottom + (height + head - foot) / view.scale);
   return view;
 }
 
@@ -172,6 +158,10 @@ std::string label(const Point& at, const std::string& attributes, const std::str
          "</text>\n";
 }
 
+// Of letters that may stand before a body.
+constexpr const char* halo =
+    " class=\"halo\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"";
+
 std::string mm_text(double metres) { return rounded_text(unit::mm.from_si(metres), 3) + " mm"; }
 
 // An arrow from one point to another, with a head of `reach` px.
@@ -195,7 +185,7 @@ std::string slides(const ScenePicture& picture, const View& view) {
     const Vec3 next = at + slide;
     const Point end = view(next);
     text += arrow(view(at), end, 11.0, " stroke-dasharray=\"6 4\"") +
-            label({end.x + 8.0, end.y + 5.0}, " stroke=\"none\"", mm_text(slide.norm()));
+            label({end.x + 8.0, end.y + 5.0}, halo, mm_text(slide.norm()));
     at = next;
   }
   return text;
@@ -215,8 +205,38 @@ std::string finger(const ScenePicture& picture, const View& view) {
   return text;
 }
 
-// The arrow of the travel, before the finger, not to scale.
-std::string travel(const ScenePicture& picture, const View& view) {
+// Where the arrows of a load between plates stand: on the top, also on a round one.
+std::array<Vec3, 5> loaded_places(const ScenePicture& picture) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  double top = -inf;
+  for (const auto& face : picture.faces)
+    for (const Vec3& corner : face.corners) top = std::max(top, corner.z());
+  Vec3 low = Vec3::Constant(inf), high = -low;
+  for (const auto& face : picture.faces)
+    for (const Vec3& corner : face.corners)
+      if (corner.z() > top - 1e-6) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+      }
+  const Vec3 middle = 0.5 * (low + high), half = 0.25 * (high - low);
+  return {middle, middle + half, middle - half, middle + Vec3(half.x(), -half.y(), 0.0),
+          middle + Vec3(-half.x(), half.y(), 0.0)};
+}
+
+// The load between plates: arrows, not to scale, with its words above them.
+std::string load(const ScenePicture& picture, const View& view) {
+  std::string text;
+  Point label_at = view(loaded_places(picture).front());
+  for (const Vec3& place : loaded_places(picture)) {
+    const Point tip = view(place);
+    text += arrow({tip.x, tip.y - 40.0}, {tip.x, tip.y - 2.0}, 10.0);
+    label_at.y = std::min(label_at.y, tip.y - 48.0);
+  }
+  return text + label(label_at, std::string(halo) + " text-anchor=\"middle\"", picture.load);
+}
+
+// The arrow of the displacement, before the finger, not to scale.
+std::string press(const ScenePicture& picture, const View& view) {
   Point ahead{picture.towards.dot(view.right), -picture.towards.dot(view.up)};
   const double length = std::hypot(ahead.x, ahead.y);
   ahead = length > 0.05 ? Point{ahead.x / length, ahead.y / length} : Point{0.0, 1.0};
@@ -237,39 +257,8 @@ std::string travel(const ScenePicture& picture, const View& view) {
   };
   const Point tail = back(before + 43.0);
   return arrow(tail, back(before + 5.0), 12.0) +
-         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)},
-               " stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\"",  // over a body
+         label({tail.x + 10.0, tail.y + (ahead.y < 0.0 ? 0.0 : 12.0)}, halo,
                mm_text(picture.travel));
-}
-
-// Its length is 1, 2 or 5 times a power of ten: the longest that is at most 160 px.
-std::string scale_bar(const View& view) {
-  double length = 1e-6;  // m
-  for (const double next : {2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5,
-                            2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0}) {
-    if (length * next * view.scale > 160.0) break;
-    length *= next;
-  }
-  const double left = margin, right_end = margin + view.scale * length, y = height - 36.0;
-  const auto tick = [&](double x) { return "M" + px(x) + " " + px(y - 5.0) + "v10"; };
-  return "<path d=\"" + tick(left) + tick(right_end) + "M" + px(left) + " " + px(y) + "H" +
-         px(right_end) + "\" fill=\"none\"/>\n" +
-         label({0.5 * (left + right_end), y - 10.0}, " stroke=\"none\" text-anchor=\"middle\"",
-               mm_text(length));
-}
-
-std::string axes(const ScenePicture& picture, const View& view) {
-  constexpr double length = 34.0;  // px, of an axis parallel to the page
-  const Point origin{width - 100.0, height - 48.0};
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 along = picture.axes.col(axis);
-    const double x = along.dot(view.right), y = -along.dot(view.up);
-    text += arrow(origin, {origin.x + length * x, origin.y + length * y}, 7.0);
-    text += label({origin.x + (length + 10.0) * x, origin.y + (length + 10.0) * y + 4.5},
-                  " stroke=\"none\" text-anchor=\"middle\"", axis_names[as_index(axis)]);
-  }
-  return text;
 }
 
 std::string lines(const std::vector<std::array<Vec3, 2>>& edges, const View& view,
@@ -296,7 +285,8 @@ std::string box(const SceneFrame& frame, const View& view) {
     number = name ? 0 : number + 1;
   }
   return lines(frame.lines, view, " stroke=\"#9aa3ad\" stroke-width=\"0.8\"") +
-         "<g font-size=\"12\" fill=\"#444\" text-anchor=\"middle\">\n" + labels + "</g>\n";
+         "<g class=\"ink\" font-size=\"12\" fill=\"#444\" text-anchor=\"middle\">\n" + labels +
+         "</g>\n";
 }
 
 std::string legend(const ScenePicture& picture) {
@@ -434,23 +424,24 @@ std::string scene_svg(const ScenePicture& picture, const std::string& title) {
   const SceneFrame frame = scene_frame(picture);
   const View view = fitting(picture, frame);
   const std::vector<std::array<Vec3, 2>> border = base_border(picture);
-  const std::string held = " stroke=\"" + hex(held_colour, 0.8) + "\"";
+  const std::string held = " class=\"border\" stroke=\"" + hex(held_colour, 0.8) + "\"";
   const std::string size = "width=\"" + px(width) + "\" height=\"" + px(height) + "\"";
-  const std::string ink = "<g fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n";
+  // What stands before the body is dark on every page.
+  const std::string before = "<g fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n";
   std::string text =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(width) + " " + px(height) +
       "\" " + size + " font-family=\"sans-serif\" font-size=\"14\">\n<title>" + escaped(title) +
-      "</title>\n" + gradient + "<rect " + size + " fill=\"#fff\"/>\n" + box(frame, view) +
-      lines(border, view, held + " stroke-width=\"2.4\"") + specimen(picture, view) +
-      lines(border, view, held + " stroke-dasharray=\"4 4\"") + ink + slides(picture, view) +
-      "</g>\n";
+      "</title>\n" + gradient + "<rect class=\"back\" " + size + " fill=\"#fff\"/>\n" +
+      box(frame, view) + lines(border, view, held + " stroke-width=\"2.4\"") +
+      specimen(picture, view) + lines(border, view, held + " stroke-dasharray=\"4 4\"") + before +
+      slides(picture, view) + "</g>\n";
   if (!picture.finger.empty())
     text += "<g fill=\"url(#ball)\" stroke=\"#4a5666\" stroke-width=\"0.8\">\n" +
-            finger(picture, view) + "</g>\n";
-  text += ink;
-  if (!picture.finger.empty()) text += travel(picture, view);
-  text += scale_bar(view) + axes(picture, view) + "</g>\n<g fill=\"#222\">\n" +
-          label({margin, 40.0}, " font-size=\"18\"", title);
+            finger(picture, view) +
+            "</g>\n<g class=\"ink\" fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n" +
+            press(picture, view) + "</g>\n";
+  if (!picture.load.empty()) text += before + load(picture, view) + "</g>\n";
+  text += "<g class=\"ink\" fill=\"#222\">\n" + label({margin, 40.0}, " font-size=\"18\"", title);
   return text + legend(picture) + "</g>\n</svg>\n";
 }
 
@@ -483,13 +474,20 @@ std::string data(const record::ScenePicture& picture) {
   std::string lines, border, labels;
   add(lines, frame.lines);
   add(border, base_border(picture));
-  if (!picture.finger.empty()) {  // the arrow of the press
-    const auto& [centre, radius] = picture.finger.front();
-    const Vec3 tip = centre - 1.1 * radius * picture.towards;
-    const Vec3 tail = tip - 1.5 * radius * picture.towards;
+  const auto add_arrow = [&](const Vec3& tip, double length) {
+    const Vec3 tail = tip - length * picture.towards;
     const Vec3 neck = 0.75 * tip + 0.25 * tail;
-    const Vec3 side = 0.2 * radius * picture.towards.unitOrthogonal();
+    const Vec3 side = 0.13 * length * picture.towards.unitOrthogonal();
     add(border, {{tail, tip}, {tip, neck + side}, {tip, neck - side}});
+  };
+  if (!picture.finger.empty()) {
+    const auto& [centre, radius] = picture.finger.front();
+    add_arrow(centre - 1.1 * radius * picture.towards, 1.5 * radius);
+  }
+  if (!picture.load.empty()) {
+    const auto& [middle, corner, other, third, fourth] = loaded_places(picture);
+    for (const Vec3& place : {middle, corner, other, third, fourth})
+      add_arrow(place, 1.5 * (corner - middle).norm());
   }
   for (const SceneLabel& one : frame.labels)
     labels += "[" + places(one.at) + ",\"" + one.text + "\"],";
@@ -530,15 +528,14 @@ Markup scene_view(const record::ScenePicture& picture, const std::string& title)
       materials.push_back(material);
   std::string words = "Specimen of " + joined(materials, ", ");
   words += picture.finger.empty()
-               ? std::string(" before anything moves.")
+               ? " between two plates; the arrows are the load, " + picture.load + "."
                : " and finger at first contact; the arrow is the largest displacement, " +
                      mm(picture.travel) + " mm.";
   Markup inner = element("div", page::inline_svg(scene_svg(picture, title), "scene", words),
-                         {{"class", "white"}, {"id", "scene-still"}});
+                         {{"id", "scene-still"}});
   const SceneAngles angles = scene_angles(picture);
   inner += element("canvas", Markup(),
                    {{"id", "scene-canvas"},
-                    {"class", "white"},
                     {"width", "800"},
                     {"height", "640"},
                     {"role", "img"},
@@ -569,6 +566,7 @@ std::string scene_script() {
     ends[2][1] = Math.max(ends[2][1], scene.spheres[i + 2] + scene.spheres[i + 3]);
   const middle = ends.map(e => (e[0] + e[1]) / 2);
   const scale = 560 / Math.hypot(...ends.map(e => e[1] - e[0]));
+  const now = word => getComputedStyle(document.documentElement).getPropertyValue(word);
   const shade = (colour, light) => "#" + [1, 3, 5].map(i => Math.min(255, Math.max(0, Math.round(
     light * parseInt(colour.slice(i, i + 2), 16)))).toString(16).padStart(2, "0")).join("");
   const draw = () => {
@@ -614,8 +612,8 @@ std::string scene_script() {
         pen.fillStyle = pen.strokeStyle = s.colour; }
       pen.fill(); pen.stroke();
     }
-    edges(scene.border, "#4a586e", 1.5);
-    pen.fillStyle = "#444"; pen.textAlign = "center"; pen.font = "12px sans-serif";
+    edges(scene.border, now("--soft"), 1.5);
+    pen.fillStyle = now("--ink"); pen.textAlign = "center"; pen.font = "12px sans-serif";
     for (const [x, y, z, words] of scene.labels) {
       const at = flat([x, y, z]); pen.fillText(words, at[0], at[1] + 4); }
   };

@@ -13,11 +13,12 @@ namespace palpate::report {
 // Draws the specimen as shaded triangles in parallel projection, seen from 30 degrees above the
 // horizon (below it, where the press comes from below) and from the quarter that the finger comes
 // from, with z of the picture upwards; the held surface and its border, also where the body hides
-// it; the finger at its first touch; arrows for travel and slides, the box of the body with numbers
-// along its axes, and a scale bar, in mm. A region that contains another one is translucent. Faces
-// are painted in the order of their distance, the farthest first, which may be wrong where large
-// triangles surround small ones. The picture must have at least one face; the text has about 60
-// bytes per visible triangle. The same picture gives the same bytes.
+// it; the finger at its first touch, or the load between plates; arrows for displacement and
+// slides, the box of the body with numbers along its axes, and a scale bar, in mm. A region that
+// contains another one is translucent. Faces are painted in the order of their distance, the
+// farthest first, which may be wrong where large triangles surround small ones. The picture must
+// have at least one face; the text has about 60 bytes per visible triangle. The same picture gives
+// the same bytes.
 [[nodiscard]] std::string scene_svg(const record::ScenePicture& picture, const std::string& title);
 
 // The same to turn: scene_svg() with two sliders, which appear if the browser runs the script.

@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "base/written.h"
 
 namespace palpate::report {
 namespace {
@@ -25,23 +26,6 @@ std::string xml_file(const char* name) {
   text += "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<";
   text += name;
   return text += ">\n";
-}
-
-// RFC 4648, section 4.
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t j) {
-      return j < bytes.size() ? static_cast<unsigned char>(bytes[j]) : 0U;
-    };
-    const std::uint32_t three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
-    for (int shift = 18; shift >= 0; shift -= 6) text += digits[three >> shift & 63U];
-    if (i + 2 >= bytes.size()) text.back() = '=';
-    if (i + 1 >= bytes.size()) text[text.size() - 2] = '=';
-  }
-  return text;
 }
 
 // One array. The base64 text contains the number of bytes, then the numbers.
@@ -131,22 +115,6 @@ std::string cell_data(const VtuFrame& frame) {
   return text + "</CellData>\n";
 }
 
-// An attribute value in quotes, with XML's special characters escaped.
-std::string attribute(std::string_view text) {
-  std::string safe = "\"";
-  for (const char letter : text) {
-    if (letter == '&')
-      safe += "&amp;";
-    else if (letter == '<')
-      safe += "&lt;";
-    else if (letter == '"')
-      safe += "&quot;";
-    else
-      safe += letter;
-  }
-  return safe + "\"";
-}
-
 }  // namespace
 
 std::string vtu_bytes(const VtuFrame& frame) {
@@ -165,8 +133,8 @@ std::string vtu_bytes(const VtuFrame& frame) {
 std::string pvd_bytes(std::span<const TimedFile> files) {
   std::string text = xml_file("Collection");
   for (const TimedFile& entry : files)
-    text += "<DataSet timestep=\"" + number_text(entry.time) +
-            "\" part=\"0\" file=" + attribute(entry.file) + "/>\n";
+    text += "<DataSet timestep=\"" + number_text(entry.time) + "\" part=\"0\" file=\"" +
+            escaped(entry.file) + "\"/>\n";
   return text + "</Collection>\n</VTKFile>\n";
 }
 

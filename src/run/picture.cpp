@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
+#include "base/units.h"
 #include "geometry/body.h"
 #include "geometry/half_edges.h"
 #include "scene/first_touch.h"
@@ -199,6 +201,15 @@ std::vector<Face> cavity_faces(const geometry::Surface& outer_surface, int regio
   return found;
 }
 
+// What the upper plate does in the first step of a test between plates.
+std::string load_text(const scenario::Step& step) {
+  if (const auto* creep = std::get_if<scenario::Creep>(&step))
+    return quantity_text(creep->stress, unit::kPa);
+  const auto* relax = std::get_if<scenario::Relax>(&step);
+  const double strain = relax ? relax->strain : std::get<scenario::Compress>(step).strain;
+  return "a strain of " + percent_text(strain);
+}
+
 }  // namespace
 
 record::ScenePicture picture_of(const scene::Scene& scene) {
@@ -230,7 +241,10 @@ record::ScenePicture picture_of(const scene::Scene& scene) {
   picture.towards = -upright.col(2);
   for (Face& face : picture.faces)
     for (Vec3& corner : face.corners) corner = upright * corner;
-  if (scenario.uniform()) return picture;
+  if (scenario.uniform()) {
+    picture.load = load_text(scenario.steps.front());
+    return picture;
+  }
   Vec3 finger = scene::pressed_place(scene);
   picture.touch = finger;
   if (scene.solid) {

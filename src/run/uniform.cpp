@@ -12,6 +12,7 @@
 #include "contact/relaxation.h"
 #include "mechanics/monitor.h"
 #include "mechanics/stepper.h"
+#include "run/picture.h"
 #include "scenario/integrators.h"
 
 namespace palpate::run {
@@ -27,7 +28,10 @@ using scenario::Relax;
 class UniformTest {
  public:
   UniformTest(const scene::Scene& scene, record::CaseRecord& record)
-      : scene_(scene), specimen_(*scene.specimen), record_(record) {}
+      : scene_(scene), specimen_(*scene.specimen), record_(record) {
+    if (scene.scenario.output.picture || scene.scenario.output.report)
+      record_.picture = picture_of(scene);
+  }
 
   void all() {
     for (std::size_t i = 0; i < scene_.scenario.steps.size(); ++i) {

@@ -221,10 +221,7 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
                   "When the meshes of `tissue` are written.",
                   {output.tissue, "with `tissue`", Use::Otherwise::note}},
                  output.tissue_at, meshes_at);
-  visitor.flag({"picture",
-                "A picture of the scene.",
-                {use.finger.used, use.finger.when, Use::Otherwise::note}},
-               output.picture);
+  visitor.flag({"picture", "A picture of the scene."}, output.picture);
   visitor.numbers_by_name(
       {"display_scale", "Factors by case, for figures and an extra fit; CSV stays in newtons."},
       output.display_scale, above(0));

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/stop_scope.h"
 #include "base/text.h"
+#include "run/choose.h"
+#include "scenario/integrators.h"
 #include "scenario/words.h"
 #include "stability/survey.h"
 
@@ -269,6 +271,22 @@ void refuse_large(const ProbedBody& own, const scenario::Family& family) {
                        "; give `tissue.mesh` fewer cells (limits are proportional to the edges)");
 }
 
+// That a scenario steps nothing in time, if so: its model has no mesh, or its steps no inertia.
+std::string unstepped(const scenario::Case& one, scene::SpecimenShapes& shapes) {
+  const auto& named = one.scenario.solver.model;
+  const scenario::Resolved::Solver solver =
+      named ? scenario::resolve(one, *named).solver
+            : run::choose(one, shapes, run::Models::quick).chosen.solver;
+  const scenario::ModelTraits& model = scenario::traits(solver.model);
+  if (model.meshed() && about(solver.integrator).inertia) return {};
+  return std::string("Nothing is stepped in time here: `") + model.word +
+         (model.meshed() ? std::string("` with `") + about(solver.integrator).word
+                         : std::string()) +
+         "` computes the force at rest" +
+         ", so that no step is too long; the limits are those of springs with inertia on this "
+         "body.";
+}
+
 }  // namespace
 
 StabilityMap map_stability(const scenario::Case& one, const scenario::Family& family,
@@ -290,8 +308,11 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   probe_time(survey);
   probe_shape(survey);
   probe_touch(survey);
-  survey.map.longest_step = longest_step(survey);
   std::vector<std::string> sentences = map_sentences(survey);
+  if (const std::string text = unstepped(one, survey.shapes); !text.empty())
+    sentences.insert(sentences.begin(), text);
+  else
+    survey.map.longest_step = longest_step(survey);
   survey.map.sentences.insert(survey.map.sentences.begin(), sentences.begin(), sentences.end());
   return std::move(survey.map);
 }

@@ -14,6 +14,7 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "fit/regression.h"
+#include "plot/gnuplot_text.h"
 #include "record/csv.h"
 #include "record/table.h"
 
@@ -216,7 +217,8 @@ std::string factor_label(const FactorChoice& factor) {
   // A factor of several linked keys has the column of the first.
   const std::string key = factor.name.substr(0, factor.name.find(" + "));
   const bool has_unit = column.size() > key.size() + 1 && column.starts_with(key + "_");
-  return with_unit(factor.name, has_unit ? unit_symbol(column.substr(key.size() + 1)) : "");
+  return with_unit(plot::key_label(factor.name),
+                   has_unit ? unit_symbol(column.substr(key.size() + 1)) : "");
 }
 
 std::string file_word(const std::string& column) {

@@ -92,7 +92,7 @@ class ColumnReader {
 // `force_at_1_mm_N` as "Force at 1 mm (N)", `force_indentation_power_n` as "n, power fit".
 [[nodiscard]] std::string output_label(const std::string& column);
 
-// `tissue.young_modulus_kPa` of the factor `tissue.young_modulus` as "tissue.young_modulus (kPa)".
+// `tissue.young_modulus_kPa` of the factor `tissue.young_modulus` as "Young's modulus (kPa)".
 [[nodiscard]] std::string factor_label(const FactorChoice& factor);
 
 // The column's name with `_` for all but letters and digits, for names of files.

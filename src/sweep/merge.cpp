@@ -153,6 +153,9 @@ SweepTotals count_results(const SweepPlan& plan, const SweepResults& results) {
 SweepAnswer merge_sweep(const SweepPlan& plan, const SweepResults& results,
                         const SweepTotals& totals, WholeFolder& folder) {
   SweepAnswer answer = Merge(plan, results, folder).write();
+  const std::vector<std::string>& swept = plan.family.design.keys();
+  if (std::find(swept.begin(), swept.end(), "solver.tolerance") == swept.end())
+    answer.tolerance = percent_text(plan.family.base.solver.tolerance);
   folder.write("merged.json", merged_text(plan, totals, folder.files()));
   return answer;
 }
@@ -231,6 +234,7 @@ std::string SweepAnswer::error() const {
   };
   const std::string low = text(errors_.low), high = text(errors_.high);
   return "± " + low + (low == high ? "" : " to " + high) +
+         (tolerance.empty() ? "" : " (tolerance " + tolerance + ")") +
          (unknown_ == 0 ? "" : ", not known in " + of_cases(unknown_, cases_)) +
          (uncounted_cases_ == 0 ? ""
           : uncounted_cases_ == cases_

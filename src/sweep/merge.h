@@ -18,11 +18,13 @@ namespace palpate::sweep {
 // Collects rows one by one, without keeping them.
 class SweepAnswer {
  public:
+  std::string tolerance;  // of the errors, `5 %`; empty where cases have their own
+
   // `number`: of the case, from 1. Rows of cases that did not end as they should count for nothing.
   void see(const SweepRow& row, std::size_t number);
 
-  // `± 3 %`, `± 3 % to 41 %, not counting viscosity` of the completed cases; a sentence's part
-  // where an error is not known.
+  // `± 3 % (tolerance 5 %)`, `± 3 % to 41 %, not counting viscosity` of the completed cases; a
+  // sentence's part where an error is not known.
   [[nodiscard]] std::string error() const;
 
   // The models, then one line per neglected effect with its largest change. Empty without cases.

@@ -11,7 +11,6 @@
 #include "base/text.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"
-#include "plot/palette.h"
 #include "record/csv.h"
 #include "sweep/columns.h"
 
@@ -51,19 +50,17 @@ std::string level_text(const FactorColumn& factor, double value) {
   return factor.is_number() ? number_text(value) : factor.words[static_cast<std::size_t>(value)];
 }
 
-// The edges of a point's cell in a map: halfway to the neighbouring values.
+// The edges of a point's cell in a map: halfway to the neighbouring values, and at the value itself
+// where there is none, so that no colour stands beyond what was computed.
 struct Edges {
   double low, high;
 };
 Edges edges(const std::vector<double>& values, std::size_t i, Scale scale) {
   const bool log = scale == Scale::logarithmic;
   const auto between = [&](double a, double b) { return log ? std::sqrt(a * b) : 0.5 * (a + b); };
-  const auto beyond = [&](double a, double edge) { return log ? a * a / edge : a - (edge - a); };
   const double here = values[i];
-  if (values.size() == 1) return {here, here};
-  if (i == 0) return {beyond(here, between(here, values[1])), between(here, values[1])};
-  const double low = between(values[i - 1], here);
-  return {low, i + 1 < values.size() ? between(here, values[i + 1]) : beyond(here, low)};
+  return {i > 0 ? between(values[i - 1], here) : here,
+          i + 1 < values.size() ? between(here, values[i + 1]) : here};
 }
 
 }  // namespace
@@ -248,34 +245,21 @@ std::string data_of_lines(const Response& response, const Lines& lines) {
   return text + "EOD\n";
 }
 
-// The range of a map's axis: from the first to the last edge of its cells.
-std::pair<double, double> outer(const record::Table& table, const std::string& column) {
-  double low = INFINITY;
-  double high = -INFINITY;
-  for (const auto& row : table.rows) {
-    low = std::min(low, std::get<double>(row[as_index(table.find("low_" + column))]));
-    high = std::max(high, std::get<double>(row[as_index(table.find("high_" + column))]));
-  }
-  return {low, high};
-}
-
 bool has_gaps(const Response& response) {
   return std::any_of(response.grid.values.begin(), response.grid.values.end(),
                      [](double value) { return !std::isfinite(value); });
 }
 
 std::string map(const Response& response) {
-  const record::Table table = response_table(response);
   const std::string& x = response.across.column;
   const std::string& y = response.along->column;
-  const auto [left, right] = outer(table, x);
-  const auto [low, high] = outer(table, y);
   const Lines lines = lines_of(response);
   const Ends values = ends(response.grid.values);
   const std::string known = "strcol(" + plot::gnuplot_quoted(response.output) + ") eq ''";
   std::string text =
-      axis("x", response.across, left, right) + axis("y", *response.along, low, high) +
-      "set ylabel " + plot::gnuplot_quoted(factor_label(*response.along)) + "\n" +
+      axis("x", response.across, response.grid.x.front(), response.grid.x.back()) +
+      axis("y", *response.along, response.grid.y.front(), response.grid.y.back()) + "set ylabel " +
+      plot::gnuplot_quoted(factor_label(*response.along)) + "\n" +
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
       scale_of_one("cb", response) + "set cblabel " +
       plot::gnuplot_quoted(output_label(response.output)) + " offset 0.2,0\n" +
@@ -313,16 +297,15 @@ std::vector<std::size_t> chosen(std::size_t count) {
   return all;
 }
 
-// The legend is narrower than an axis: a long key is shortened to its last part.
+// The legend is narrower than an axis: a long name goes without its unit, and then without its
+// first words.
 std::string narrow_label(const FactorChoice& factor) {
   std::string label = factor_label(factor);
-  if (label.size() <= 14) return label;
-  const std::size_t unit = std::min(label.find(" ("), label.size());
-  std::size_t dot = label.rfind('.', unit);
-  const bool part =
-      dot + 2 == unit && std::isdigit(static_cast<unsigned char>(label[dot + 1])) != 0;
-  if (part && dot > 0) dot = label.rfind('.', dot - 1);  // `size.3`
-  return dot == std::string::npos ? label : label.substr(dot + 1);
+  constexpr std::size_t most = 15;  // letters
+  if (label.size() > most) label.erase(std::min(label.find(" ("), label.size()));
+  while (label.size() > most && label.find(' ') != std::string::npos)
+    label.erase(0, label.find(' ') + 1);
+  return label;
 }
 
 std::string curve_plots(const Response& response) {
@@ -339,7 +322,8 @@ std::string curve_plots(const Response& response) {
   text += scale_of_one("y", response) + "set ylabel " +
           plot::gnuplot_quoted(output_label(response.output)) + "\n";
   if (response.along)
-    text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) + " left\n";
+    text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) +
+            " left font ',12'\n";
   std::vector<std::string> plots;
   for (const std::size_t j : chosen(count)) {
     if (!std::isfinite(ends({&grid.values[j * width], width}).low)) continue;  // gnuplot complains
@@ -571,7 +555,8 @@ std::optional<plot::Sheet> sensitivity_sheet(const Sensitivity& found, const std
   if (outputs.empty()) return std::nullopt;
   const std::size_t factors = outputs.front().size();
   std::size_t longest = 0;
-  for (const auto& row : outputs.front()) longest = std::max(longest, row.factor.size());
+  for (const auto& row : outputs.front())
+    longest = std::max(longest, plot::key_label(row.factor).size());
   const int panel = 34 + 38 * static_cast<int>(factors);
   const int height = 105 + panel * static_cast<int>(outputs.size());
   const double margin = std::min(0.5, 0.04 + 0.0148 * static_cast<double>(longest));
@@ -590,7 +575,7 @@ std::optional<plot::Sheet> sensitivity_sheet(const Sensitivity& found, const std
   for (const auto& rows : outputs) {
     std::vector<std::string> tics;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      tics.push_back(plot::gnuplot_quoted(rows[i].factor) + " " +
+      tics.push_back(plot::gnuplot_quoted(plot::key_label(rows[i].factor)) + " " +
                      number_text(-static_cast<double>(i)));
     const bool last = &rows == &outputs.back();
     text += std::string("set format x '") + (last ? "%.10g" : "") + "'\n";
@@ -638,14 +623,14 @@ std::vector<std::string> draw_sweep(const SweepColumns& columns, const Sensitivi
 
 namespace {
 
-// `case 3 (tissue.young_modulus 5 kPa)`, by the number in results.csv
+// `case 3 (Young's modulus 5 kPa)`, by the number in results.csv
 std::string case_text(const SweepColumns& columns, std::size_t at) {
   std::string text;
   for (const FactorColumn& factor : columns.factors) {
     const std::string label = factor_label(factor.choice);
     const std::size_t unit = std::min(label.find(" ("), label.size());
     const double value = factor.values[at];
-    text += (text.empty() ? "" : ", ") + label.substr(0, unit) + " " +
+    text += (text.empty() ? "" : ", ") + within_sentence(label.substr(0, unit)) + " " +
             (factor.is_number() ? rounded_text(value, 4)
                                 : factor.words[static_cast<std::size_t>(value)]);
     if (unit < label.size()) text += " " + label.substr(unit + 2, label.size() - unit - 3);

@@ -158,11 +158,8 @@ TEST(Arguments, ThatAreWrongAreToldInOneSentence) {
        "`palpate run` cannot be read: `--dry-run` does not go with `--device`; `palpate run "
        "--help` shows how to write it"},
       {{"run", "a.toml", "--device", "replay:a.csv", "--clock", "slow"},
-       "`palpate run` cannot be read: `slow`, which is none of real, virtual; `palpate run --help` "
-       "shows how to write it"},
-      {{"completion", "csh"},
-       "`palpate completion` cannot be read: `shell` got `csh`, which is none of bash, zsh, fish; "
-       "`palpate completion --help` shows how to write it"},
+       "a hidden option does not know `slow`; it is one of real, virtual"},
+      {{"completion", "csh"}, "`shell` does not know `csh`; it is one of bash, zsh, fish"},
       {{"schema", "---"},
        "unknown option `---`; known: --help, --version, --quiet, --no-color, --json, --csv"},
   };

@@ -58,6 +58,9 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
             std::vector<std::string>{});
   EXPECT_NE(headline_of(folder_ / "out/small_chart/report.html").find("the cheapest within"),
             std::string::npos);
+  EXPECT_TRUE(headline_of(folder_ / "out/small_chart/report.html").find("springs") !=
+              std::string::npos)
+      << headline_of(folder_ / "out/small_chart/report.html");
   const std::string page = read_file(folder_ / "out/small_chart/report.html");
   EXPECT_NE(page.find("<td data-column=\"auto\">yes</td>"), std::string::npos);
   EXPECT_EQ(faults_of_pages(folder_ / "out/small_chart", {"report.html"}, Scheme::dark),

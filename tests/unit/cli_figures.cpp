@@ -63,7 +63,7 @@ TEST_F(Figures, TwentyEightCasesAreColours) {
   expect_readable(all, 3);
   const std::string svg =
       read_file(folder_ / "out/figure6_local_geometry/figure_force_indentation.svg");
-  EXPECT_NE(svg.find(">tissue.shape.curvature (1/m)<"), std::string::npos) << "the colour bar";
+  EXPECT_NE(svg.find(">Shape curvature (1/m)<"), std::string::npos) << "the colour bar";
   EXPECT_EQ(svg.find("ln h"), std::string::npos) << "no regression that nobody asked for";
 }
 

@@ -214,7 +214,7 @@ TEST_F(FitVerb, options_of_the_models) {
             "palpate: `--radius` is `0 mm`; give a length above 0\n");
   EXPECT_EQ(refusal("layer", {"--radius", "11 mm", "--poisson", "0.4", "--thickness", "9 mm",
                               "--base", "glued"}),
-            "palpate: `--base` does not know `glued`; it is bonded or frictionless\n");
+            "palpate: `--base` does not know `glued`; it is one of bonded, frictionless\n");
   EXPECT_EQ(refusal("hertz", {"--tip", "conus", "--poisson", "0.4"}),
             "palpate: `--tip` does not know `conus`; did you mean `cone`?\n");
   EXPECT_EQ(

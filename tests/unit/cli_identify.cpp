@@ -188,6 +188,7 @@ TEST_F(IdentifyVerb, RefusesInSentences) {
   const auto nothing = identify({"--unknown", "contact.friction=0.1..1"});
   EXPECT_EQ(nothing.code, 2);
   EXPECT_NE(nothing.err.find("changes nothing in what `hertz` computes"), std::string::npos);
+  EXPECT_EQ(nothing.err.find("note: "), std::string::npos) << nothing.err;
   const auto typo = identify({"--unknown", "tissue.young_modulos=1..2 kPa"});
   EXPECT_EQ(typo.code, 2);
   EXPECT_NE(typo.err.find("did you mean `tissue.young_modulus`?"), std::string::npos);

@@ -193,7 +193,7 @@ TEST_F(MeshVerb, RefusesWhatCannotServe) {
   expect_refused(2, {"cube.off"}, "lacks the unit of the coordinates in cube.off");
   expect_refused(2, {"cube.off", "--unit", "kg"}, "`--unit` wants a unit of length, got `kg`");
   expect_refused(2, {"cube.off", "--unit", "mm", "--edge", "3 kPa"}, "`--edge` wants a length");
-  expect_refused(2, {"cube.off", "--unit", "mm", "--edge", "-3 mm"}, "must be above 0 mm");
+  expect_refused(2, {"cube.off", "--unit", "mm", "--edge", "-3 mm"}, "give a length above 0");
   expect_refused(2, {"cube.off", "--unit", "mm", "--edge", "3 mm", "--nodes", "90"}, "--nodes");
   expect_refused(2, {"cube.off", "--unit", "mm", "--set", "a=1"}, "`--set` is for scenarios");
   expect_refused(2, {"box.node", "--unit", "m", "--nodes", "90"}, "is a mesh already");

@@ -95,6 +95,14 @@ TEST_F(RunTalk, a_terminal_gets_the_next_step_and_colours) {
   EXPECT_NE(ended.seen.find("\nnext: palpate open 'out/my press'"), std::string::npos)
       << ended.seen;
   EXPECT_EQ(run({"--force"}).err.find("next: "), std::string::npos);
+  ASSERT_EQ(palpate(folder_.path(), {"sweep", "plan", "press.toml"}).code, 0);
+  const auto planned = on_terminal({"sweep", "status", "out/press_sweep"}, folder_.path());
+  EXPECT_NE(planned.seen.find("next: palpate sweep run out/press_sweep"), std::string::npos)
+      << planned.seen;
+  ASSERT_EQ(palpate(folder_.path(), {"sweep", "run", "out/press_sweep"}).code, 0);
+  const auto done = on_terminal({"sweep", "status", "out/press_sweep"}, folder_.path());
+  EXPECT_NE(done.seen.find("next: palpate sweep merge out/press_sweep"), std::string::npos)
+      << done.seen;
   const auto red = on_terminal({"run", "none.toml"}, folder_.path());
   EXPECT_TRUE(red.seen.starts_with("\x1b[31mnone.toml")) << red.seen;
   const auto plain = on_terminal({"--no-color", "run", "none.toml"}, folder_.path());

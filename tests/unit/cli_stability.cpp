@@ -24,7 +24,24 @@ class StabilityVerb : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(StabilityVerb, says_where_nothing_is_stepped) {
+  const auto first = [&](const std::string& model) {
+    const Ended ended = map({"--force", "--set", "solver.model=" + model});
+    EXPECT_EQ(headline_of(folder_ / "out/small_stability/report.html"), "") << model;
+    return ended.out.substr(0, ended.out.find('\n'));
+  };
+  const std::string says = "Nothing is stepped in time here: ",
+                    end =
+                        "` computes the force at rest, so that no step is too long; the limits are "
+                        "those of springs "
+                        "with inertia on this body.";
+  EXPECT_EQ(first("hertz"), says + "`hertz" + end);
+  EXPECT_EQ(first("mass_spring"), says + "`mass_spring` with `quasi_static" + end);
+}
+
 TEST_F(StabilityVerb, writes_tables_a_figure_and_sentences) {
+  write_file(folder_ / "small.toml",
+             small + "[solver]\nmodel = \"mass_spring\"\nintegrator = \"central_difference\"\n");
   const Ended ended = map({});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_NE(ended.out.find("central differences are stable below"), std::string::npos);

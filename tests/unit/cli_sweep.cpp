@@ -37,6 +37,8 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
                                    "sensitivity.gp", "sensitivity.svg"}));
   const fs::path page = folder_ / "out/s_sweep/merged/report.html";
   EXPECT_NE(headline_of(page).find(" N ± "), std::string::npos) << headline_of(page);
+  EXPECT_NE(headline_of(page).find(" % (tolerance 5 %), not"), std::string::npos)
+      << headline_of(page);
   EXPECT_TRUE(headline_of(page).ends_with(", not counting viscosity")) << headline_of(page);
   for (const char* line : {"<p>Least in case ", "<p>Model: hertz in 6 of 6 cases.</p>",
                            "<p>Neglected in 6 of 6 cases", "<p>6 of 6 cases completed, 0 failed"})

@@ -1,8 +1,9 @@
 // Folders: missing, extra and differing files, each by name.
-#include "compare/compare_folders.h"
+#include "compare/compare.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
@@ -41,8 +42,8 @@ TEST_F(CompareFolders, EqualWhereEveryFileIs) {
   write("got/run.json", "{}");  // no CSV: not compared
   const FolderComparison result = compare_folders(path("got"), path("want"), {});
   EXPECT_TRUE(result.equal());
-  EXPECT_EQ(comparison_text(result), "");
-  EXPECT_EQ(equal_text(result), "equal: 2 columns of 2 files\n");
+  EXPECT_EQ(difference_lines(result), "");
+  EXPECT_EQ(headline(result), "equal: 2 columns of 2 files");
 }
 
 TEST_F(CompareFolders, NamesWhatIsMissingExtraOrDifferent) {
@@ -52,12 +53,25 @@ TEST_F(CompareFolders, NamesWhatIsMissingExtraOrDifferent) {
   write("got/c.csv", "x\n2\n");
   const FolderComparison result = compare_folders(path("got"), path("want"), {});
   EXPECT_FALSE(result.equal());
-  EXPECT_EQ(comparison_text(result),
-            "a.csv: DIFFERS\n"
-            "x: DIFFERS in 1 row; worst row 1: got 1, want 2, relative difference 0.5, allowed "
-            "2e-09\n"
-            "c.csv: DIFFERS, the file is not wanted\n"
-            "sub/b.csv: DIFFERS, the file is missing\n");
+  EXPECT_EQ(headline(result), "DIFFERS in 1 of 1 column of 3 files, in what files there are");
+  EXPECT_EQ(difference_lines(result),
+            "c.csv, file: DIFFERS, the file is not wanted\n"
+            "sub/b.csv, file: DIFFERS, the file is missing\n"
+            "a.csv, x: DIFFERS in 1 row; worst row 1: got 1, want 2, relative difference 0.5, "
+            "allowed 2e-09\n");
+}
+
+// What a curve is drawn of comes first, then its results, and no more than eight lines.
+TEST_F(CompareFolders, TellsTheCurveFirstAndEightColumns) {
+  write("want/a.csv", "b,c,d,e,f,g,h,time_s,force_N,peak_x\n1,1,1,1,1,1,1,0,4,1\n");
+  write("got/a.csv", "b,c,d,e,f,g,h,time_s,force_N,peak_x\n2,2,2,2,2,2,2,0,5,2\n");
+  const FolderComparison result = compare_folders(path("got"), path("want"), {});
+  EXPECT_EQ(headline(result), "DIFFERS in 9 of 10 columns, in force_N by 25 %");
+  const std::string lines = difference_lines(result);
+  EXPECT_TRUE(lines.starts_with("force_N: DIFFERS in 1 row; worst row 1: time_s 0, got 5, want 4"))
+      << lines;
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 9);
+  EXPECT_NE(lines.find("\nand 1 more; `--json`"), std::string::npos) << lines;
 }
 
 TEST_F(CompareFolders, RefusesWhatCannotBeCompared) {

@@ -30,22 +30,25 @@ TEST(Tolerances, ColumnsInheritTheDefault) {
 
 TEST(Tolerances, RefuseWithPlaceAndRemedy) {
   EXPECT_EQ(refusal("[default]\nrell = 1e-9\n"),
-            "t.toml:2:1: `rell` is not known here; did you mean `rel`?");
+            "t.toml:2:1: `rell` is not a key here; did you mean `rel`?");
   EXPECT_EQ(refusal("[columns.force_N]\nrel = 1\n"),
-            "t.toml:1:2: `columns` is not known here; did you mean `column`?");
+            "t.toml:1:2: `columns` is not a key here; did you mean `column`?");
   EXPECT_EQ(refusal("[pipe]\nx_abs = 1\n"),
-            "t.toml:1:2: `pipe` is not known here; write one of `default`, `column`, `tube`");
+            "t.toml:1:2: `pipe` is not a key here; known keys: column, default, tube");
   EXPECT_EQ(refusal("[column.force_N]\nrel = -1\nabs = \"1 N\"\nignore = 1\nreason = 2\n"),
-            "t.toml:2:7: `rel` wants a number of 0 or more, got `-1`; write it as `rel = 1e-9`\n"
-            "t.toml:3:7: `abs` wants a number of 0 or more, got `1 N`; write it as `abs = 1e-12`\n"
-            "t.toml:4:10: `ignore` wants true or false, got `1`; write it as `ignore = true`\n"
-            "t.toml:5:10: `reason` wants a text, got `2`; write it as `reason = \"rounding of "
-            "1e4 steps\"`");
+            "t.toml:2:7: `rel` must be at least 0, got `-1`; give a value in that range\n"
+            "t.toml:3:7: `abs` wants a pure number, got a text `1 N`; write it as `abs = 0.5`\n"
+            "t.toml:4:10: `ignore` wants `true` or `false`, got an integer `1`; write it as "
+            "`ignore = true`\n"
+            "t.toml:5:10: `reason` wants a text, got an integer `2`; write it as `reason = \"2\"`");
   EXPECT_EQ(refusal("[default]\nrel = inf\n"),
-            "t.toml:2:7: `rel` wants a number of 0 or more, got `inf`; write it as `rel = 1e-9`");
-  EXPECT_EQ(refusal("column = 3\n"), "t.toml:1:10: `column` wants tables, as `[column.force_N]`");
-  EXPECT_EQ(refusal("[column]\nforce_N = 3\n"),
-            "t.toml:2:11: `force_N` wants a table, got `3`; give it keys, as `rel = 1e-9`");
+            "t.toml:2:7: `rel` wants a finite number, got `inf`; write one as `0.5`");
+  EXPECT_EQ(
+      refusal("column = 3\n"),
+      "t.toml:1:10: `column` wants a table, got an integer `3`; write it as `column = { ... }`");
+  EXPECT_EQ(
+      refusal("[column]\nforce_N = 3\n"),
+      "t.toml:2:11: `force_N` wants a table, got an integer `3`; write it as `force_N = { ... }`");
 }
 
 }  // namespace

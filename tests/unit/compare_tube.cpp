@@ -121,14 +121,13 @@ TEST(Tube, StandsInTheTolerances) {
     return "accepted";
   };
   EXPECT_EQ(refusal("[tube]\nx = \"time_s\"\n"),
-            "t.toml:1:2: `tube` wants a width, in the unit of its column; write `width = 0.05`");
+            "t.toml:1:2: `tube` wants `width`; write `width = 0.05`");
   EXPECT_EQ(refusal("[tube]\nwidth = 0.1\n"),
-            "t.toml:1:2: `tube` wants the name of the column of x; write `x = \"time_s\"`");
-  EXPECT_EQ(
-      refusal("[tube]\nx = \"time_s\"\nwidth = -1\n"),
-      "t.toml:3:9: `width` wants a number of 0 or more, got `-1`; write it as `width = 0.05`");
+            "t.toml:1:2: `tube` wants `x`; write `x = \"time_s\"`");
+  EXPECT_EQ(refusal("[tube]\nx = \"time_s\"\nwidth = -1\n"),
+            "t.toml:3:9: `width` must be at least 0, got `-1`; give a value in that range");
   EXPECT_EQ(refusal("[tube]\nx = \"time_s\"\nwide = 1\nwidth = 1\n"),
-            "t.toml:3:1: `wide` is not known here; did you mean `width`?");
+            "t.toml:3:1: `wide` is not a key here; did you mean `width`?");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "page/page.h"
 #include "page/png.h"
 #include "plot/gnuplot.h"
-#include "plot/palette.h"
+#include "plot/gnuplot_text.h"
 #include "temporary_folder.h"
 
 namespace palpate::page {
@@ -56,16 +56,33 @@ TEST(Html, NamesKeepTheirCaseAtTheStartOfASentence) {
   EXPECT_EQ(paragraphs({"done."}).html(), "<p>Done.</p>");
 }
 
-// The dark inverts lines and texts, but no colours that stand for numbers.
+// The dark inverts lines, texts and grounds, but no areas whose colours stand for numbers.
 TEST(Page, ColoursOfNumbersAreNotInverted) {
   const test::TemporaryFolder folder;
   const std::string picture = (folder.path() / "a.svg").string();
   EXPECT_EQ(class_of(picture), "plot");
-  test::write_file(folder.path() / "a.gp", "set palette defined (0 '#440154')\n");
-  EXPECT_EQ(class_of(picture), "white");
+  test::write_file(folder.path() / "a.gp", "plot 'a.csv' with boxxyerror linecolor palette\n");
+  EXPECT_EQ(class_of(picture), "plot map");
   const std::string css = style();
-  EXPECT_EQ(css.find(".white svg { filter"), std::string::npos);
+  EXPECT_NE(css.find(".map svg g[shape-rendering=\"crispEdges\"] { filter: invert(1)"),
+            std::string::npos);
   EXPECT_NE(css.find(".plot svg { filter: invert("), std::string::npos);
+}
+
+// On paper nothing can be opened, and more than eight columns do not stand side by side.
+TEST(Page, PrintsWhatIsFoldedAndWideTablesRowByRow) {
+  const std::string css = style(), print = css.substr(css.find("@media print"));
+  EXPECT_NE(print.find("details::details-content { content-visibility: visible;"),
+            std::string::npos);
+  EXPECT_EQ(print.find("details:not([open])"), std::string::npos);
+  EXPECT_NE(print.find(".many td { display: inline-block;"), std::string::npos);
+  record::Table wide{{}, {{}}};
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_EQ(table("t", wide).html().find("many"), std::string::npos) << i;
+    wide.columns.push_back(std::to_string(i));
+    wide.rows[0].emplace_back(1.0);
+  }
+  EXPECT_NE(table("t", wide).html().find("class=\"wide many\""), std::string::npos);
 }
 
 TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {

@@ -124,7 +124,7 @@ TEST(FamilyFigures, ATissueHasItsColourAndTheLegendItsKey) {
   std::vector<record::CaseRecord> records(2);
   for (std::size_t i = 0; i < 2; ++i) records[i].name = family.cases[i].name;
   const plot::Figure figure = report::family_figures(family, records, {}).at(0);
-  EXPECT_EQ(figure.legend, "tissue.material");
+  EXPECT_EQ(figure.legend, "Material");
   EXPECT_EQ(figure.series.at(0).colour, 3U);
   EXPECT_EQ(figure.series.at(1).colour, 0U);
 }
@@ -147,7 +147,7 @@ TEST(FamilyFigures, ManyCasesAreColouredByTheSweptNumber) {
   EXPECT_FALSE(drawn("\"1 mm\", \"2 mm\", \"3 mm\", \"4 mm\"").bar) << "eight have a legend";
   const auto many = drawn("\"1 mm\", \"2 mm\", \"3 mm\", \"4 mm\", \"5 mm\"");
   ASSERT_TRUE(many.bar);
-  EXPECT_EQ(many.bar->label, "step.1.to (mm)");
+  EXPECT_EQ(many.bar->label, "Step 1 to (mm)");
   EXPECT_EQ(many.bar->high, 5.0);
   EXPECT_EQ(many.series.at(1).shade, 2.0);
   EXPECT_EQ(many.series.at(9).label, "muscle");

@@ -64,7 +64,7 @@ plot::Figure force_figure(const std::string& folder) {
     series.push_back(each);
   }
   write_atomically(folder + "/force_indentation.csv", record::csv_text(table));
-  plot::Figure figure = figure_force_depth(series);
+  plot::Figure figure = figure_of(Kind::force_depth, series);
   figure.fit_label = "a + b ln h";
   return figure;
 }
@@ -94,7 +94,7 @@ plot::Figure strain_figure(const std::string& folder) {
     series.push_back(each);
   }
   write_atomically(folder + "/strain_time.csv", record::csv_text(table));
-  return figure_strain_time(series);
+  return figure_of(Kind::strain_time, series);
 }
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -179,7 +179,8 @@ TEST_F(Gnuplot, ReadsTheFileOfManyCasesOnce) {
     }
     table.rows.push_back({"not drawn", 1.0, 1.0, 1e6});
     write_atomically(folder_ + "/force_indentation.csv", record::csv_text(table));
-    const plot::Drawing drawing = plot::draw(plot::sheet_of(figure_force_depth(series)), folder_);
+    const plot::Drawing drawing =
+        plot::draw(plot::sheet_of(figure_of(Kind::force_depth, series)), folder_);
     EXPECT_EQ(drawing.warning, "");
     return read("figure_force_indentation.svg");
   };

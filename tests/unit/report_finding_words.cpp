@@ -38,11 +38,32 @@ TEST(FindingWords, ValuesHaveFourDigitsAndUnits) {
   EXPECT_EQ(finding_text({"stated_error", 0.03456}), "3.46 %");
   EXPECT_EQ(finding_text({"model", std::string("layer")}), "layer");
   EXPECT_EQ(finding_text({"force_at_1_mm_N", 2.0}), "2");
+  EXPECT_EQ(finding_text({"peak_force_N", 1.23456}, 2), "1.2 N");
+  EXPECT_EQ(finding_text({"peak_strain", 0.123456}, 2), "12 %");
   record::CaseRecord record;
   record.findings = {{"nodes", 12.0}, {"model", std::string("hertz")}};
   EXPECT_EQ(finding_number(record, "nodes"), 12.0);
   EXPECT_TRUE(std::isnan(finding_number(record, "model")));
   EXPECT_EQ(finding_word(record, "model"), "hertz");
+}
+
+// Two digits at 20 %, three at 5 %, four below 1 %, never more; and of an estimate, those that its
+// interval leaves.
+TEST(FindingWords, NumbersHaveTheDigitsThatTheirErrorWarrants) {
+  const auto digits = [](std::optional<double> error) {
+    record::Answer answer;
+    answer.stated_error = error;
+    return warranted_digits(answer);
+  };
+  EXPECT_EQ(digits(1.5), 2);
+  EXPECT_EQ(digits(0.2), 2);
+  EXPECT_EQ(digits(0.05), 3);
+  EXPECT_EQ(digits(0.005), 4);
+  EXPECT_EQ(digits(1e-7), 4);
+  EXPECT_EQ(digits(std::nullopt), 3);
+  EXPECT_EQ(warranted_text(60.1234, 55.0, 65.0), "60.1");
+  EXPECT_EQ(warranted_text(60.1234, 59.9, 60.3), "60.12");
+  EXPECT_EQ(warranted_text(60.1234, 60.1233, 60.1235), "60.12");
 }
 
 }  // namespace

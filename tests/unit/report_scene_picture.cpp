@@ -41,15 +41,25 @@ TEST(ScenePicture, shows_finger_travel_and_scale) {
   EXPECT_EQ(occurrences(svg, "A press"), 2U);  // as title and in the picture
   EXPECT_EQ(occurrences(svg, "<circle"), 1U);
   EXPECT_EQ(occurrences(svg, ">3 mm<"), 1U);
-  EXPECT_EQ(occurrences(svg, ">5 mm<"), 1U) << "the scale bar";
   EXPECT_EQ(svg, scene_svg(flat(), "A press"));
 }
 
-TEST(ScenePicture, scale_bar_and_finger_have_one_scale) {
+// The finger is as large as the numbers along the axes say: 10 mm across, as from 0 to 10 of x.
+TEST(ScenePicture, axes_and_finger_have_one_scale) {
   const std::string svg = scene_svg(flat(), "");
-  const double radius = std::stod(svg.substr(svg.find(" r=\"", svg.find("<circle")) + 4));
-  const std::size_t bar = svg.find("H", svg.find("v10M"));
-  EXPECT_NEAR(std::stod(svg.substr(bar + 1)) - 60.0, radius, 0.11);  // 5 mm both; 0.1 px digits
+  const auto number_after = [&](const std::string& word, std::size_t from) {
+    return std::stod(svg.substr(svg.find(word, from) + word.size()));
+  };
+  const double radius = number_after(" r=\"", svg.find("<circle"));
+  const auto place = [&](const std::string& text) {  // of the first number, on the axis of x
+    const std::size_t at = svg.rfind("<text", svg.find(">" + text + "<"));
+    return std::pair{number_after(" x=\"", at), number_after(" y=\"", at)};
+  };
+  const auto [x0, y0] = place("0");
+  const auto [x1, y1] = place("10");
+  const double turned = std::cos(M_PI / 6.0), raised = std::sin(M_PI / 6.0) * std::sin(M_PI / 6.0);
+  EXPECT_NEAR(std::hypot(x1 - x0, y1 - y0), 2.0 * radius * std::hypot(turned, raised),
+              0.3);  // digits of 0.1 px
 }
 
 TEST(ScenePicture, draws_what_looks_up_and_merges_one_colour) {
@@ -207,9 +217,33 @@ TEST(ScenePicture, follows_slides_one_after_the_other) {
   EXPECT_EQ(occurrences(svg, ">20 mm<"), 1U);
 }
 
+// Between plates there is no finger: five arrows stand on the top, with what they are.
+TEST(ScenePicture, shows_the_load_between_plates) {
+  ScenePicture picture = flat();
+  picture.finger.clear();
+  const std::string without = scene_svg(picture, "");
+  picture.load = "1 kPa";
+  const std::string svg = scene_svg(picture, "");
+  EXPECT_EQ(occurrences(svg, ">1 kPa<"), 1U);
+  EXPECT_EQ(occurrences(svg, "z\" stroke=\"none\""),
+            occurrences(without, "z\" stroke=\"none\"") + 5U);
+  EXPECT_NE(scene_view(picture, "").html().find("the arrows are the load, 1 kPa."),
+            std::string::npos);
+}
+
+// The page gives ground and ink, which it finds by these classes.
+TEST(ScenePicture, takes_the_colours_of_a_page) {
+  const std::string svg = scene_svg(flat(), "");
+  EXPECT_EQ(occurrences(svg, "<rect class=\"back\""), 1U);
+  EXPECT_EQ(occurrences(svg, "class=\"halo\""), 1U);
+  EXPECT_EQ(occurrences(svg, "<g class=\"ink\""), 3U) << "numbers, arrow with axes, legend";
+  EXPECT_EQ(occurrences(svg, "<g fill=\"#222\""), 1U) << "slides stand before the body";
+  EXPECT_EQ(scene_view(flat(), "").html().find("class=\"white\""), std::string::npos);
+}
+
 TEST(ScenePicture, text_is_safe_in_xml) {
   const std::string svg = scene_svg(flat(), "a < b & c\n\x01");
-  EXPECT_EQ(occurrences(svg, "a &lt; b &amp; c  <"), 2U);
+  EXPECT_EQ(occurrences(svg, "a &lt; b &amp; c\n <"), 2U);
   EXPECT_EQ(svg.find('\x01'), std::string::npos);
 }
 

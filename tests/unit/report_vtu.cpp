@@ -296,7 +296,7 @@ TEST(Pvd, ListsFilesByTime) {
   EXPECT_EQ(collection.children[0].attributes.at("timestep"), "0");
   EXPECT_EQ(collection.children[0].attributes.at("file"), "tissue_000.vtu");
   EXPECT_EQ(collection.children[1].attributes.at("timestep"), "0.1");
-  EXPECT_EQ(collection.children[1].attributes.at("file"), "a &amp; &quot;b&quot; &lt;c>.vtu");
+  EXPECT_EQ(collection.children[1].attributes.at("file"), "a &amp; &quot;b&quot; &lt;c&gt;.vtu");
   EXPECT_TRUE(Xml(pvd_bytes({})).root().child("Collection").children.empty());
 }
 

@@ -65,6 +65,19 @@ TEST(Picture, ShowsTheBaseThatIsComputed) {
   EXPECT_GT(held, 4);
 }
 
+TEST(Picture, BetweenPlatesThereIsALoadAndNoFinger) {
+  const auto load = [](const std::string& step) {
+    const record::ScenePicture picture = picture_of(test::scene_of(
+        "[tissue]\nmesh = { kind = \"kuhn\", cells = [2, 2, 2] }\n[[step]]\n" + step));
+    EXPECT_TRUE(picture.finger.empty());
+    EXPECT_EQ(picture.base, "on a table (slides)");
+    return picture.load;
+  };
+  EXPECT_EQ(load("kind = \"creep\"\nstress = \"2 kPa\"\n"), "2 kPa");
+  EXPECT_EQ(load("kind = \"relax\"\nstrain = 0.04\n"), "a strain of 4 %");
+  EXPECT_EQ(load("kind = \"compress\"\nstrain = 0.2\n"), "a strain of 20 %");
+}
+
 TEST(Picture, ALayerEndsAtItsHeight) {
   const record::ScenePicture picture = picture_of(
       test::scene_of("[tissue]\nshape = { kind = \"cuboid\" }\n[[region]]\nkind = \"slab\"\n"

@@ -113,7 +113,7 @@ TEST(LocalContact, IsLeftUnreadWithANoteWhereNothingUsesIt) {
   EXPECT_EQ(notes(creep + "[solver]\nrings = 3\n[output]\ntissue = true\npicture = "
                           "true\npressure_maps = false\n"),
             "press.toml:5:1: `rings" + finger + "press.toml:9:1: `pressure_maps" + finger +
-                "press.toml:7:1: `tissue" + finger + "press.toml:8:1: `picture" + finger);
+                "press.toml:7:1: `tissue" + finger);
   // What a specimen rests on is physics.
   expect_refused({{"[tissue]\nbase_height = \"1 mm\"\n",
                    "press.toml:5:1: `base_height` has no effect here: it is used only by steps "

@@ -24,6 +24,8 @@ TEST(SweepAnswers, TellModelsErrorsAndTheLargestOfEachEffect) {
              2);
   answer.see(row("solid", 0.02), 3);
   EXPECT_EQ(answer.error(), "± 1.2 % to 3.4 %");
+  answer.tolerance = "5 %";
+  EXPECT_EQ(answer.error(), "± 1.2 % to 3.4 % (tolerance 5 %)");
   EXPECT_EQ(answer.lines(),
             (Lines{"Model: hertz in 1 of 3 cases, solid in 2 of 3 cases.",
                    "Neglected in 2 of 3 cases, most in case 2: viscosity, which would add 75 % to "

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/child_process.h"
-#include "plot/palette.h"
+#include "plot/gnuplot_text.h"
 #include "record/csv.h"
 #include "svg_text.h"
 #include "sweep/columns.h"
@@ -88,12 +88,15 @@ TEST(Response, OfAGridIsSortedAndKeepsItsGap) {
                                       "low_tissue.young_modulus_kPa",
                                       "high_tissue.young_modulus_kPa", "low_tissue.poisson_ratio",
                                       "high_tissue.poisson_ratio", "force_at_1_mm_N"}));
-  // Halfway to the neighbours: on the axis of logarithms by the root of ten, else by 0.05.
-  const std::vector<double> wanted{10,   0.1,  std::sqrt(10.0), 10 * std::sqrt(10.0), 0.05,
+  // Halfway to the neighbours, on the axis of logarithms by the root of ten, and not beyond 0.1.
+  const std::vector<double> wanted{10,   0.1,  std::sqrt(10.0), 10 * std::sqrt(10.0), 0.1,
                                    0.15, 100.1};
   for (std::size_t i = 0; i < wanted.size(); ++i)
     EXPECT_DOUBLE_EQ(std::get<double>(table.rows[1][i]), wanted[i]) << i;
   EXPECT_EQ(table.rows[4].back(), record::Cell());
+  const std::string script = response_sheet(*made).script;
+  EXPECT_NE(script.find("set xrange [1:100]"), std::string::npos) << script;
+  EXPECT_NE(script.find("set yrange [0.1:0.4]"), std::string::npos) << script;
   EXPECT_EQ(table.rows.size(), 12u);
 }
 
@@ -249,7 +252,7 @@ TEST(Response, AScriptIsTheSameTwice) {
   EXPECT_NE(script.find("linecolor rgb '#" + plot::palette_colour(plot::brightest_line)),
             std::string::npos)
       << "the last curve has a contrast of 3 to white";
-  EXPECT_NE(script.find("set xlabel 'tissue.young_modulus (kPa)'"), std::string::npos);
+  EXPECT_NE(script.find("set xlabel 'Young''s modulus (kPa)'"), std::string::npos);
   EXPECT_NE(script.find("$contours << EOD\nx0,y0,x1,y1\n"), std::string::npos)
       << "gnuplot takes the first row for a head";
 }
@@ -260,10 +263,12 @@ TEST(SweepLabels, NameOutputsAndFactorsWithTheirUnits) {
   EXPECT_EQ(output_label("force_indentation_logarithmic_a_N"), "a, logarithmic fit (N)");
   EXPECT_EQ(output_label("creep_kelvin_voigt_tau_s"), "tau, kelvin_voigt fit, creep (s)");
   EXPECT_EQ(factor_label({.name = "tissue.density", .column = "tissue.density_kg_per_m3"}),
-            "tissue.density (kg/m3)");
-  EXPECT_EQ(factor_label({.name = "tissue.drag", .column = "tissue.drag_per_s"}),
-            "tissue.drag (1/s)");
-  EXPECT_EQ(factor_label({.name = "a.b + c.d", .column = "a.b_kPa"}), "a.b + c.d (kPa)");
+            "Density (kg/m3)");
+  EXPECT_EQ(factor_label({.name = "tissue.drag", .column = "tissue.drag_per_s"}), "Drag (1/s)");
+  EXPECT_EQ(factor_label({.name = "a.b + c.d", .column = "a.b_kPa"}), "A b + c d (kPa)");
+  EXPECT_EQ(plot::key_label("tissue.poisson_ratio"), "Poisson's ratio");
+  EXPECT_EQ(plot::key_label("region.1.young_modulus"), "Region 1 Young's modulus");
+  EXPECT_EQ(plot::key_label("step.1.to"), "Step 1 to");
   EXPECT_EQ(file_word("a b/c_1.5"), "a_b_c_1_5");
   EXPECT_EQ(plot::palette_colour(0.0), "440154");
   EXPECT_EQ(plot::palette_colour(1.0), "fde725");
