@@ -263,7 +263,7 @@ class Explanation {
          (way == -Vec3::UnitZ() ? "" : " towards " + vector_text(way, 3)) + ", " +
          scene::coordinates_text(scene_.scenario) +
          (scene_.scenario.finger.moved
-              ? "; on the top, since the middle of the body's box is beside the body"
+              ? "; on the top, since the middle of the body's box is a gap or the rim of a hollow"
               : ""));
   }
 

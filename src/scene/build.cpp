@@ -275,6 +275,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height, up);
   specimen->outer_surface = shape.outer_surface;
   specimen->warning = shape.warning;
+  specimen->straightened = shape.straightened;
   specimen->surface.emplace(shape.surface);
   return specimen;
 }

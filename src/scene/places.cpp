@@ -212,27 +212,89 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
   return outwards;
 }
 
-// The middle of the highest triangle, and of the largest one of a flat top.
-Vec3 top_of(const geometry::Surface& body, double size) {
-  const double rounding = 1e-6 * size;
-  Vec3 top(0.0, 0.0, -HUGE_VAL);
-  double largest = 0.0;
+// A flat top with its borders, or the highest triangle of a body without one.
+struct Top {
+  geometry::Surface surface;
+  std::vector<std::vector<std::array<Vec3, 2>>> borders;
+
+  // Whether a place lies in a hole of it, seen from above: some border runs around the place, but
+  // not all of them together.
+  [[nodiscard]] bool has_hole_at(const Vec3& place) const {
+    double turns = 0.0;
+    bool around = false;
+    for (const auto& border : borders) {
+      double angle = 0.0;
+      for (const auto& [from, to] : border) {
+        const Vec3 a = from - place, b = to - place;
+        angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.head<2>().dot(b.head<2>()));
+      }
+      around = around || std::abs(angle) > M_PI;
+      turns += angle;
+    }
+    return around && std::abs(turns) < M_PI;
+  }
+
+  // The place, of some in every triangle, that is farthest from the borders.
+  [[nodiscard]] Vec3 innermost() const {
+    constexpr double enough = 4e4;  // places
+    const double triangles = static_cast<double>(surface.triangles.size());
+    const int parts = std::clamp(static_cast<int>(std::sqrt(enough / triangles)), 3, 24);
+    Vec3 best = Vec3::Zero();
+    double most = 0.0;
+    for (const auto& [a, b, c] : surface.triangles)
+      for (int i = 0; i <= parts; ++i)
+        for (int j = 0; i + j <= parts; ++j) {
+          const Vec3 place =
+              (i * surface.vertices[as_index(a)] + j * surface.vertices[as_index(b)] +
+               (parts - i - j) * surface.vertices[as_index(c)]) /
+              parts;
+          double nearest = HUGE_VAL;
+          for (const auto& border : borders)
+            for (const auto& [from, to] : border) {
+              const Vec3 along = to - from;
+              const double at =
+                  std::clamp((place - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+              nearest = std::min(nearest, (place - from - at * along).norm());
+            }
+          constexpr double rounding = 1e-6;
+          if (nearest <= (1.0 + rounding) * most) continue;
+          most = nearest;
+          best = place;
+        }
+    return best;
+  }
+};
+
+Top top_of(const geometry::Surface& body) {
+  const Box box = box_of(body.vertices);
+  const double rounding = 1e-6 * (box.high - box.low).norm();
+  std::vector<int> flat;
+  int highest = 0;
+  double height = -HUGE_VAL;
   for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
-    const auto& [a, b, c] = body.triangles[as_index(t)];
-    const Vec3 middle =
-        (body.vertices[as_index(a)] + body.vertices[as_index(b)] + body.vertices[as_index(c)]) /
-        3.0;
-    const double area = geometry::twice_area(body, t).norm();
-    if (middle.z() < top.z() - rounding || (middle.z() <= top.z() + rounding && area <= largest))
-      continue;
-    top = middle;
-    largest = area;
+    double low = HUGE_VAL, sum = 0.0;
+    for (const int v : body.triangles[as_index(t)]) {
+      low = std::min(low, body.vertices[as_index(v)].z());
+      sum += body.vertices[as_index(v)].z();
+    }
+    if (low >= box.high.z() - rounding) flat.push_back(t);
+    if (sum <= height) continue;
+    height = sum;
+    highest = t;
+  }
+  if (flat.empty()) flat.push_back(highest);
+  Top top{geometry::piece_of(body, flat), {}};
+  for (const auto& hole : geometry::joints(top.surface).holes) {
+    auto& border = top.borders.emplace_back();
+    for (const auto& edge : hole)
+      border.push_back(
+          {top.surface.vertices[as_index(edge.from)], top.surface.vertices[as_index(edge.to)]});
   }
   return top;
 }
 
-// A finger without a place presses the middle of the body's box, or the top of a body that has
-// nothing there, as a ring.
+// A finger without a place presses the middle of the body's box. Where that is beside the body, as
+// in a ring, or a hollow of a flat top on whose rim the finger rests, it presses the top.
 void leave_empty_middle(scenario::Resolved& scenario, const geometry::SmoothSurface& surface) {
   const geometry::Surface& body = surface.surface();
   const Box box = box_of(body.vertices);
@@ -246,16 +308,19 @@ void leave_empty_middle(scenario::Resolved& scenario, const geometry::SmoothSurf
     };
     return side(0) != side(1) || side(1) != side(2);
   };
-  if (!std::ranges::all_of(body.triangles, beside)) return;
+  const Top top = top_of(body);
+  const bool hollow = top.has_hole_at(middle);
+  if (!hollow && !std::ranges::all_of(body.triangles, beside)) return;
   const Vec3 centre = Vec3::Zero();
   try {
-    (void)lowered_onto(surface, middle, {{&centre, 1}, scenario.finger.radius});
+    const FirstTouch first = lowered_onto(surface, middle, {{&centre, 1}, scenario.finger.radius});
+    if (!hollow || !first.on_crease) return;
   } catch (const MeshError&) {
-    const Vec3 top = top_of(body, (box.high - box.low).norm());
-    scenario.finger.x = top.x();
-    scenario.finger.y = top.y();
-    scenario.finger.moved = true;
   }
+  const Vec3 place = top.innermost();
+  scenario.finger.x = place.x();
+  scenario.finger.y = place.y();
+  scenario.finger.moved = true;
 }
 
 // The nearest place of a surface without the walls of its cavities.

@@ -101,6 +101,10 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
                     ": few tissues are tested at "
                     "such strains; press less deep, or check the size of the body" +
                     units);
+  else if (hollow > 0.0 && travel > hollow)
+    found.push_back("the press is deeper than the " + mm_text(hollow) +
+                    " that are hollow under the finger: the curve of `solid` ends where the walls "
+                    "meet, and springs pass through each other there; press less deep");
   const double width = touch.size.head<2>().minCoeff();
   const double radius = scenario.finger.radius;
   if (radius > width || estimates.contact_radius > 0.5 * width)

@@ -130,18 +130,26 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
     }
   } else {
     const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
-    auto [found, names, warning] = mesh_of(file, folder);
-    for (Vec3& node : found.nodes) node = scenario.tissue.turn * node;
-    made = {std::move(found), std::move(warning), std::move(names)};
+    meshing::NamedMesh read = mesh_of(file, folder);
+    for (Vec3& node : read.mesh.nodes) node = scenario.tissue.turn * node;
+    for (auto& [edge, middle] : read.middles) middle = scenario.tissue.turn * middle;
+    made = {std::move(read.mesh), std::move(read.warning), std::move(read.names),
+            std::move(read.middles), std::move(read.straightened)};
     name = "the mesh of " + file.file;
   }
   meshing::check(mesh, name, volume);
   std::vector<double> heights = slab_levels(scenario);
   const Box around = box_of(mesh.nodes);
   std::erase_if(heights, [&](double z) { return z <= around.low.z() || z >= around.high.z(); });
+  const std::vector<Vec3> before = made.middles.empty() ? std::vector<Vec3>{} : mesh.nodes;
   for (const double height : heights)
     mesh = meshing::cut_at(std::move(mesh), height, false, parametric(scenario.tissue.shape));
   if (!heights.empty()) {
+    std::erase_if(made.middles, [&](const auto& one) {  // of nodes that the cuts moved
+      return std::any_of(one.first.begin(), one.first.end(), [&](int node) {
+        return mesh.nodes[as_index(node)] != before[as_index(node)];
+      });
+    });
     number_slabs(mesh, scenario);
     meshing::check(mesh, name + ", cut at the layers,", volume);
   }

@@ -66,20 +66,19 @@ SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
   const double flat = 1e-9 * geometry::diagonal(mesh);
   const double top_area = flat_area(outer_surface, high, flat);
   const double bottom_area = flat_area(outer_surface, low, flat);
-  return {std::move(mesh),
-          std::move(outer_surface.nodes),
-          geometry::SmoothSurface(std::move(outer_surface.surface)),
-          top_area,
-          bottom_area,
-          base_level,
-          "",
-          std::nullopt};
+  return {.mesh = std::move(mesh),
+          .outer_surface = std::move(outer_surface.nodes),
+          .surface = geometry::SmoothSurface(std::move(outer_surface.surface)),
+          .top_area = top_area,
+          .bottom_area = bottom_area,
+          .base_level = base_level};
 }
 
 SpecimenShape make_shape(const Scenario& scenario, const std::string& folder,
                          const geometry::SmoothSurface* of_file) {
-  auto [mesh, warning, names] =
+  SpecimenMesh made =
       specimen_mesh(scenario, folder, of_file == nullptr ? nullptr : &of_file->surface());
+  geometry::TetMesh& mesh = made.mesh;
   const auto [low, high] = reach(mesh);
   const double rounding = 1e-4 * (high - low);  // of files, in a flat underside
   const double level = base_level(scenario, geometry::outer_surface(mesh).surface);
@@ -89,7 +88,8 @@ SpecimenShape make_shape(const Scenario& scenario, const std::string& folder,
     meshing::check(mesh, "the mesh, cut at the border of the base,", 0.0);
   }
   SpecimenShape shape = shape_of(std::move(mesh), level);
-  shape.warning = std::move(warning);
+  shape.warning = std::move(made.warning);
+  shape.straightened = std::move(made.straightened);
   return shape;
 }
 

@@ -30,7 +30,8 @@ struct SpecimenShape {
   double top_area = 0.0;     // m^2, of the flat upper end; 0 if there is none
   double bottom_area = 0.0;  // m^2
   double base_level = 0.0;   // m, absolute; the surface up to this height is the base
-  std::string warning;       // of SpecimenMesh
+  std::string warning = {};  // of SpecimenMesh
+  std::string straightened = {};
   std::optional<Refined> refined = {};
 };
 

@@ -166,6 +166,7 @@ Body make_body(const BodyOrder& order) {
                    .coarser = order.coarser,
                    .movable = order.movable,
                    .mesh = order.mesh,
+                   .middles = order.middles,
                    .region_of = order.region_of,
                    .inclusions = order.inclusions,
                    .mirrors = mirrors,
@@ -418,7 +419,7 @@ std::optional<Answer> FingerPress::go(double travel) {
              quantity_text(travel / order_.share, unit::mm) + " of " +
              quantity_text(order_.deepest, unit::mm)});
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
-  if (!found) tissue_.end = End::folds;
+  if (!found) tissue_.end = press_->walls_meet() ? End::closes : End::folds;
   return found;
 }
 
@@ -450,6 +451,9 @@ std::string FingerPress::end_text() const {
       " beyond a displacement of " + rounded_text(unit::mm.from_si(found_to()), 3) + " mm";
   if (ball_.end != End::open)
     return "the solid finds no equilibrium of the finger's ball" + beyond + "; press less deep";
+  if (tissue_.end == End::closes)
+    return "the walls of the hollow under the finger meet" + beyond +
+           ", and the solid has no contact between them; press less deep";
   if (tissue_.end == End::snaps)
     return "a wall snaps away from the finger" + beyond + "; press less deep";
   return "the solid finds no equilibrium" + beyond +

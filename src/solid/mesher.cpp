@@ -326,6 +326,8 @@ Mesh refined(const MeshOrder& order) {
   constexpr double longest = 1.8;
   constexpr int most_rounds = 30;
   geometry::TetMesh mesh = *order.mesh;
+  std::optional<geometry::CurvedEdges> curved;
+  if (order.middles != nullptr) curved.emplace(mesh.nodes, *order.middles);
   meshing::TrueBoundary boundary(mesh, std::nullopt, {}, {});
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<char> marks(mesh.tetrahedra.size(), 0);
@@ -344,12 +346,16 @@ Mesh refined(const MeshOrder& order) {
       any = true;
     }
     if (!any) break;
-    meshing::Bisection bisection(
-        mesh, [&](const meshing::Bisection::Middle& edge) { return boundary.place(edge); });
+    meshing::Bisection bisection(mesh, [&](const meshing::Bisection::Middle& edge) {
+      return curved ? curved->split(edge.a, edge.b) : boundary.place(edge);
+    });
     bisection.halve(marks);
     mesh = bisection.mesh();
   }
-  return quadratic(mesh);
+  if (!curved) return quadratic(mesh);
+  return quadratic(mesh, [&](const std::array<int, 2>& edge) -> std::optional<Vec3> {
+    return curved->middle(edge[0], edge[1]);
+  });
 }
 
 }  // namespace
