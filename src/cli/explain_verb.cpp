@@ -220,7 +220,8 @@ class Explanation {
     }
     line("  shape        " + text);
     if (const auto box = body_box())
-      line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
+      line("  box          " + scene::box_text(*box) + ", " +
+           scene::coordinates_text(scene_.scenario));
     if (!scene_.choice.touch.warning.empty())
       line((std::holds_alternative<scenario::AsMeshed>(tissue.shape) ? "  mesh file    "
                                                                      : "  mended       ") +

@@ -57,18 +57,10 @@ std::optional<geometry::Surface> cavity_around(const geometry::Surface& body,
 
 }  // namespace
 
-std::string Box::text() const {
+std::string box_text(const Box& box) {
+  const auto& [low, high] = box;
   return "x " + range_text(low.x(), high.x()) + ", y " + range_text(low.y(), high.y()) + ", z " +
          range_text(low.z(), high.z()) + " mm";
-}
-
-Box box_of(std::span<const Vec3> places) {
-  Box box{places.front(), places.front()};
-  for (const Vec3& place : places) {
-    box.low = box.low.cwiseMin(place);
-    box.high = box.high.cwiseMax(place);
-  }
-  return box;
 }
 
 std::string coordinates_text(const scenario::Resolved& scenario) {
@@ -205,8 +197,7 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
                     " mm^2, but the surface beyond the " +
                     "plane through them, which would be held, has " + rounded_text(1e6 * beyond) +
                     " mm^2; name a group that is the whole end of the body on one side");
-  double low = HUGE_VAL;
-  for (const Vec3& vertex : body.vertices) low = std::min(low, -vertex.dot(outwards));
+  const double low = geometry::reach_along(body.vertices, -outwards).first;
   if (!flat_underside(body, -outwards, low) || height > low + rounding)
     scenario.tissue.base_height = std::max(low, height) + rounding;
   return outwards;
@@ -397,25 +388,15 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
 Eigen::Matrix3d standing(const scenario::Resolved& scenario) { return turn_up(up_of(scenario)); }
 
 Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places) {
-  const Eigen::Matrix3d back = scenario.tissue.turn.transpose();
-  Box box{back * places.front(), back * places.front()};
-  for (const Vec3& place : places) {
-    const Vec3 own = back * place;
-    box.low = box.low.cwiseMin(own);
-    box.high = box.high.cwiseMax(own);
-  }
-  return box;
+  std::vector<Vec3> own;
+  for (const Vec3& place : places) own.emplace_back(scenario.tissue.turn.transpose() * place);
+  return box_of(own);
 }
 
 double base_level(const scenario::Resolved& scenario, const geometry::Surface& body) {
   if (scenario.tissue.base_height) return *scenario.tissue.base_height;
   const Vec3& up = scenario.tissue.base_up;
-  double low = body.vertices.front().dot(up);
-  double high = low;
-  for (const Vec3& vertex : body.vertices) {
-    low = std::min(low, vertex.dot(up));
-    high = std::max(high, vertex.dot(up));
-  }
+  const auto [low, high] = geometry::reach_along(body.vertices, up);
   return flat_underside(body, up, low).value_or(low + 0.1 * (high - low));
 }
 
@@ -523,7 +504,7 @@ double share_inside(const geometry::Surface& body, const geometry::Inclusion& in
 void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
                     const scenario::Family& family, const std::string& part) {
   const Box box = box_of(body.vertices);
-  const std::string own_box = box_in_file(scenario, body.vertices).text();
+  const std::string own_box = box_text(box_in_file(scenario, body.vertices));
   const std::string where =
       ", " + coordinates_text(scenario) + (part.empty() ? "" : ", where it is " + part);
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
@@ -546,24 +527,19 @@ void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface&
       const Box own{in_file - around, in_file + around};
       if (share >= least_inside) continue;
       std::string text =
-          outside(i, share, own.text(), own_box + where, "change `centre` or `radius`");
+          outside(i, share, box_text(own), own_box + where, "change `centre` or `radius`");
       if (const auto cavity = cavity_around(body, {centre, ball->radius, 0}, share))
         text = "`[[region]]` " + std::to_string(i + 1) + " lies " +
                (share > 0.0 ? "with " + percent_text(1.0 - share) + " of its volume " : "") +
-               "in a cavity of the body: it has " + own.text() + ", the cavity " +
-               box_in_file(scenario, cavity->vertices).text() + where +
+               "in a cavity of the body: it has " + box_text(own) + ", the cavity " +
+               box_text(box_in_file(scenario, cavity->vertices)) + where +
                "; change `centre` or `radius`";
       throw InputError(place_of(family.document, path + ".centre"), text);
     }
   }
   const auto& height = scenario.tissue.base_height;
   if (!height) return;
-  double low = body.vertices.front().dot(scenario.tissue.base_up);
-  double high = low;
-  for (const Vec3& vertex : body.vertices) {
-    low = std::min(low, vertex.dot(scenario.tissue.base_up));
-    high = std::max(high, vertex.dot(scenario.tissue.base_up));
-  }
+  const auto [low, high] = geometry::reach_along(body.vertices, scenario.tissue.base_up);
   if (*height < low || *height >= high)
     throw InputError(place_of(family.document, "tissue.base_height"),
                      "the base ends at a height of " + rounded_text(unit::mm.from_si(*height), 4) +

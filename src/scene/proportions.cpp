@@ -81,7 +81,7 @@ void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch
     return;
   throw InputError(place_of(family.document, "finger.at"),
                    "`at` is " + mm_text(distance) + " from the surface of the body, which has " +
-                       Box{touch.low, touch.high}.text() + ", " + coordinates_text(scenario) +
+                       box_text({touch.low, touch.high}) + ", " + coordinates_text(scenario) +
                        "; give a place on the surface, and check its unit" +
                        unit_text(scenario, touch));
 }

@@ -212,33 +212,17 @@ void stand_up(geometry::TetMesh& mesh) {
 }  // namespace
 
 std::optional<geometry::Shape> parametric(const scenario::Shape& shape) {
-  struct Convert {
-    std::optional<geometry::Shape> operator()(const scenario::Cuboid& box) const {
-      return geometry::Cuboid{Vec3(box.size[0], box.size[1], box.size[2])};
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Cylinder& s) const {
-      return geometry::Shape(static_cast<const geometry::Cylinder&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Ellipsoid& s) const {
-      return geometry::Shape(static_cast<const geometry::Ellipsoid&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Ligament& s) const {
-      return geometry::Shape(static_cast<const geometry::Ligament&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::BoneShaft& s) const {
-      return geometry::Shape(static_cast<const geometry::BoneShaft&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::LayeredLimb& s) const {
-      return geometry::Shape(static_cast<const geometry::LayeredLimb&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Disc& s) const {
-      return geometry::Shape(static_cast<const geometry::Disc&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::HalfSpace&) const { return {}; }
-    std::optional<geometry::Shape> operator()(const scenario::SurfaceFile&) const { return {}; }
-    std::optional<geometry::Shape> operator()(const scenario::AsMeshed&) const { return {}; }
-  };
-  return std::visit(Convert{}, shape);
+  return std::visit(
+      [](const auto& one) -> std::optional<geometry::Shape> {
+        using One = std::remove_cvref_t<decltype(one)>;
+        if constexpr (std::is_same_v<One, scenario::Cuboid>)
+          return geometry::Cuboid{Vec3(one.size[0], one.size[1], one.size[2])};
+        else if constexpr (std::is_constructible_v<geometry::Shape, const One&>)
+          return geometry::Shape(one);
+        else
+          return std::nullopt;
+      },
+      shape);
 }
 
 std::vector<double> slab_levels(const Scenario& scenario) {

@@ -39,7 +39,7 @@ std::string refusal_of(const std::string& text) {
 }
 
 TEST(Places, a_box_has_no_rounding_for_zero) {
-  EXPECT_EQ((Box{Vec3(-1.3e-18, -0.02, 0.0), Vec3(0.06, 1.3e-18, 0.03)}.text()),
+  EXPECT_EQ(box_text({Vec3(-1.3e-18, -0.02, 0.0), Vec3(0.06, 1.3e-18, 0.03)}),
             "x 0 to 60, y -20 to 0, z 0 to 30 mm");
 }
 

@@ -102,8 +102,11 @@ TEST(SolidMesher, KeepsTheMiddlesOfAFile) {
     middles[{a, b}] = 0.575 * (file.nodes[std::size_t(a)] + file.nodes[std::size_t(b)]);
   // Jacobians are polynomials of the third degree, which four points integrate to the second.
   const auto volume = [&](double size, bool curved) {
-    return volumes(
-        mesh_for({.mesh = &file, .middles = curved ? &middles : nullptr, .sizes = {{}, size}}))[0];
+    MeshOrder order;
+    order.mesh = &file;
+    if (curved) order.middles = &middles;
+    order.sizes.largest = size;
+    return volumes(mesh_for(order))[0];
   };
   const double whole = volume(10.0, true);
   EXPECT_NEAR(volume(10.0, false), 1.0 / 6.0, 1e-12);
