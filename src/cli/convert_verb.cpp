@@ -418,10 +418,11 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
       const ProgressLine line(talk, [&](double) { return command.subject; });
       mesh = mesh_of_surface(command, talk);
     } else {
-      auto [found, names, warning] = meshing::read_mesh(command.subject, unit_of(command.unit));
-      mesh = std::move(found);
-      if (!warning.empty()) talk.say("note: " + warning);
-      for (const auto& [name, number] : names)
+      meshing::NamedMesh read = meshing::read_mesh(command.subject, unit_of(command.unit));
+      mesh = std::move(read.mesh);
+      for (const std::string& sentence : {read.warning, read.straightened})
+        if (!sentence.empty()) talk.say("note: " + sentence);
+      for (const auto& [name, number] : read.names)
         talk.say("note: region " + std::to_string(number) + " is `" + name + "`");
       meshing::refuse_size(mesh.nodes, "the mesh of " + command.subject, command.unit);
       meshing::check(mesh, command.subject, 0.0);

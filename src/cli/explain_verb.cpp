@@ -219,7 +219,8 @@ class Explanation {
     }
     line("  shape        " + text);
     if (const auto box = body_box())
-      line("  box          " + box->text() + ", " + scene::coordinates_text(scene_.scenario));
+      line("  box          " + scene::box_text(*box) + ", " +
+           scene::coordinates_text(scene_.scenario));
     if (!scene_.choice.touch.warning.empty())
       line((std::holds_alternative<scenario::AsMeshed>(tissue.shape) ? "  mesh file    "
                                                                      : "  mended       ") +
@@ -262,7 +263,7 @@ class Explanation {
          (way == -Vec3::UnitZ() ? "" : " towards " + vector_text(way, 3)) + ", " +
          scene::coordinates_text(scene_.scenario) +
          (scene_.scenario.finger.moved
-              ? "; on the top, since the middle of the body's box is beside the body"
+              ? "; on the top, since the middle of the body's box is a gap or the rim of a hollow"
               : ""));
   }
 

@@ -227,7 +227,24 @@ CurvatureEstimate between(const std::array<CurvatureEstimate, 3>& corners,
 }
 
 CurvatureEstimate CurvatureStars::at_side(const Surface& now, int side) const {
-  return method_ == CurvatureMethod::quadric ? quadric(now, side) : taubin(now, side);
+  CurvatureEstimate found =
+      method_ == CurvatureMethod::quadric ? quadric(now, side) : taubin(now, side);
+  // Of a plane any number of neighbours tells the curvature.
+  if (!found.known() && plane(now, side))
+    found = {.status = StarStatus::full,
+             .curvature = principal(normal(now, side).normalized(), {0.0, 0.0, 0.0})};
+  return found;
+}
+
+bool CurvatureStars::plane(const Surface& now, int side) const {
+  constexpr double rounding = 1e-5;  // of files
+  const std::span<const int> star = star_of(side);
+  const Vec3 upright = normal(now, side).normalized();
+  const double off = rounding * spread(now, side);
+  return star.size() > 1 && std::all_of(star.begin(), star.end(), [&](int other) {
+           const Vec3 away = position(now, other) - position(now, side);
+           return away.norm() > off && std::abs(upright.dot(away)) <= off;
+         });
 }
 
 namespace {

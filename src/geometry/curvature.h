@@ -71,6 +71,7 @@ class CurvatureStars {
   [[nodiscard]] CurvatureEstimate at_side(const Surface& now, int side) const;
   [[nodiscard]] CurvatureEstimate quadric(const Surface& now, int side) const;
   [[nodiscard]] CurvatureEstimate taubin(const Surface& now, int side) const;
+  [[nodiscard]] bool plane(const Surface& now, int side) const;   // the vertex and its neighbours
   [[nodiscard]] Vec3 normal(const Surface& now, int side) const;  // not of unit length
   [[nodiscard]] std::span<const int> triangles_of(int side) const;
   [[nodiscard]] std::span<const int> star_of(int side) const;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/box.h"
+
 namespace palpate::geometry {
 
 double signed_volume(const TetMesh& mesh, int tetrahedron) {
@@ -24,14 +26,7 @@ double volume(const TetMesh& mesh) {
 }
 
 double diagonal(const TetMesh& mesh) {
-  if (mesh.nodes.empty()) return 0.0;
-  Vec3 low = mesh.nodes.front();
-  Vec3 high = low;
-  for (const Vec3& node : mesh.nodes) {
-    low = low.cwiseMin(node);
-    high = high.cwiseMax(node);
-  }
-  return (high - low).norm();
+  return mesh.nodes.empty() ? 0.0 : box_of(mesh.nodes).diagonal();
 }
 
 std::vector<std::array<int, 2>> edges(const TetMesh& mesh) {

@@ -69,16 +69,21 @@ constexpr int vtk_passed_over[] = {0, 1, 2, 3, 4, 21, 35, 68};
 
 constexpr int middle_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
-// Whether a middle lies beside that of its straight edge, by more than a file's rounding.
-bool bent(const Cell& cell, const std::vector<Vec3>& nodes) {
+// The edges of a tetrahedron whose middles lie beside those of straight edges, by more than a
+// file's rounding: their ends and middle.
+std::vector<std::array<int, 3>> bent_edges(const Cell& cell, const std::vector<Vec3>& nodes) {
   constexpr double rounding = 1e-5;
+  std::vector<std::array<int, 3>> found;
   for (std::size_t e = 0; cell.middles && e < 6; ++e) {
-    const Vec3& a = nodes[as_index(cell.nodes[as_index(middle_edges[e][0])])];
-    const Vec3& b = nodes[as_index(cell.nodes[as_index(middle_edges[e][1])])];
-    if ((nodes[as_index((*cell.middles)[e])] - 0.5 * (a + b)).norm() > rounding * (b - a).norm())
-      return true;
+    const int from = cell.nodes[as_index(middle_edges[e][0])];
+    const int to = cell.nodes[as_index(middle_edges[e][1])];
+    const int middle = (*cell.middles)[e];
+    const Vec3& a = nodes[as_index(from)];
+    const Vec3& b = nodes[as_index(to)];
+    if ((nodes[as_index(middle)] - 0.5 * (a + b)).norm() > rounding * (b - a).norm())
+      found.push_back({from, to, middle});
   }
-  return false;
+  return found;
 }
 
 // The signed volumes of a tetrahedron with its middles, if it has some, and of that between its
@@ -108,11 +113,8 @@ std::pair<double, double> volumes_of(const Cell& cell, const std::vector<Vec3>& 
   return {whole, straight};
 }
 
-// What becomes of cells whose edges are not straight; empty if all are.
+// What becomes of cells whose edges are not straight.
 std::string straightened(const Cells& cells, const std::string& name) {
-  if (!cells.curved && std::none_of(cells.solids.begin(), cells.solids.end(),
-                                    [&](const Cell& one) { return bent(one, cells.nodes); }))
-    return "";
   std::string text = "the edges of the cells of " + name +
                      " are taken as straight, and the nodes in their middles are not used";
   const bool known = !cells.curved && std::all_of(cells.solids.begin(), cells.solids.end(),
@@ -185,6 +187,11 @@ NamedMesh tetrahedra_of(const Cells& cells, const std::string& path, double metr
     if (geometry::signed_volume(made.mesh, static_cast<int>(made.mesh.tetrahedra.size()) - 1) < 0.0)
       std::swap(last[2], last[3]);
   }
+  for (const Cell& cell : cells.solids)
+    for (const auto& [from, to, middle] : bent_edges(cell, cells.nodes)) {
+      const auto [a, b] = std::minmax(number[as_index(from)], number[as_index(to)]);
+      made.middles[{a, b}] = cells.nodes[as_index(middle)] * metres_per_unit;
+    }
   if (std::any_of(regions.begin(), regions.end(), [](int region) { return region != 0; }))
     made.mesh.regions = std::move(regions);
   made.names = cells.names;
@@ -192,8 +199,12 @@ NamedMesh tetrahedra_of(const Cells& cells, const std::string& path, double metr
   if (cut > 0)
     made.warning = std::to_string(cut) + " hexahedra, prisms and pyramids of " + name +
                    " were cut into tetrahedra";
-  if (const std::string text = straightened(cells, name); !text.empty())
-    made.warning += (made.warning.empty() ? "" : "; ") + text;
+  if (cells.curved) {
+    made.middles.clear();
+    made.warning += (made.warning.empty() ? "" : "; ") + straightened(cells, name);
+  } else if (!made.middles.empty()) {
+    made.straightened = straightened(cells, name);
+  }
   return made;
 }
 

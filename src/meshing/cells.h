@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/curved_edges.h"
 #include "geometry/tet_mesh.h"
 
 namespace palpate::meshing {
@@ -37,13 +38,15 @@ struct NamedMesh {
   geometry::TetMesh mesh;
   std::map<std::string, int> names = {};
   std::string warning = {};
+  geometry::EdgeMiddles middles = {};  // m, of curved tetrahedra
+  std::string straightened = {};       // a sentence on what is lost where these are not used
 };
 
 // The tetrahedra in all solids, which match across faces: every quadrangle is cut from its node
 // with the lowest number (Dompierre et al. 1999). Only nodes of tetrahedra are kept, in the order
 // of the file; `regions` is empty if all are 0. Tetrahedra that are inside out are turned round,
-// those of degenerate cells with a repeated node are excluded. Edges become straight; where they
-// were not, the sentence has the changes of volume. Coordinates are multiplied by
+// those of degenerate cells with a repeated node are excluded. Middles of curved
+// edges are kept if all curved cells are tetrahedra. Coordinates are multiplied by
 // `metres_per_unit`. Throws InputError for `path` if there are no solids.
 [[nodiscard]] NamedMesh tetrahedra_of(const Cells& cells, const std::string& path,
                                       double metres_per_unit);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/vec3.h"
 
 namespace palpate::meshing {
 
@@ -14,6 +15,19 @@ template <typename Item>
 void append(std::string& bytes, const Item* items, std::size_t count) {
   static_assert(std::is_trivially_copyable_v<Item>);
   bytes.append(reinterpret_cast<const char*>(items), count * sizeof(Item));
+}
+
+// Lists are preceded by their lengths.
+template <typename Item>
+void append(std::string& bytes, const std::vector<Item>& items) {
+  const std::size_t count = items.size();
+  append(bytes, &count, 1);
+  append(bytes, items.data(), count);
+}
+inline void append(std::string& bytes, const std::vector<Vec3>& places) {
+  const std::size_t count = places.size();
+  append(bytes, &count, 1);
+  for (const Vec3& place : places) append(bytes, place.data(), 3);
 }
 
 // Takes items in the order in which they were appended.
@@ -30,10 +44,14 @@ class ChildBytes {
     at_ += count * sizeof(Item);
   }
   template <typename Item>
-  void take(std::vector<Item>& items, std::size_t count) {
+  void take(std::vector<Item>& items) {
+    const std::size_t count = take_count();
     require<Item>(count);
     items.resize(count);
     take(items.data(), count);
+  }
+  void take(std::vector<Vec3>& places) {
+    for (std::size_t left = take_count(); left > 0; --left) take(places.emplace_back().data(), 3);
   }
   [[nodiscard]] bool done() const { return at_ == bytes_.size(); }
   [[noreturn]] void refuse() const {
@@ -41,6 +59,11 @@ class ChildBytes {
   }
 
  private:
+  std::size_t take_count() {
+    std::size_t count = 0;
+    take(&count, 1);
+    return count;
+  }
   template <typename Item>
   void require(std::size_t count) const {
     if (count > (bytes_.size() - at_) / sizeof(Item)) refuse();

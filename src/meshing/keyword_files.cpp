@@ -248,18 +248,14 @@ class MeditReader {
     word_ = 0;
     return lines_.next();
   }
-  std::string word(const std::string& what) {
+  // The number of the next word.
+  std::size_t must(const std::string& what) {
     if (!next()) lines_.fail("the file ends before " + what + "; it is cut short: save it again");
-    return std::string(lines_.words()[word_++]);
+    return word_++;
   }
-  int whole(const std::string& what) {
-    if (!next()) lines_.fail("the file ends before " + what + "; it is cut short: save it again");
-    return lines_.whole(word_++, what);
-  }
-  double real(const std::string& what) {
-    if (!next()) lines_.fail("the file ends before " + what + "; it is cut short: save it again");
-    return lines_.number(word_++, what);
-  }
+  std::string word(const std::string& what) { return std::string(lines_.words()[must(what)]); }
+  int whole(const std::string& what) { return lines_.whole(must(what), what); }
+  double real(const std::string& what) { return lines_.number(must(what), what); }
   // Sections of numbers that a mesh does not need.
   void skip() {
     while (next() && whole_number(lines_.words()[word_])) ++word_;

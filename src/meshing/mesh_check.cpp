@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "geometry/box.h"
 #include "geometry/half_edges.h"
 
 namespace palpate::meshing {
@@ -234,14 +235,9 @@ void refuse_size(std::span<const Vec3> places, const std::string& name, const st
   constexpr double smallest = 1e-6;  // m: smaller than any cell
   constexpr double largest = 10.0;   // m: larger than any tissue
   if (places.empty()) return;
-  Vec3 low = places.front();
-  Vec3 high = low;
-  for (const Vec3& place : places) {
+  for (const Vec3& place : places)
     if (!place.allFinite()) return;  // refused as such
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
-  const double size = (high - low).maxCoeff();
+  const double size = geometry::box_of(places).size().maxCoeff();
   if (size >= smallest && size <= largest) return;
   const std::string units = other_units(size, unit);
   throw MeshError(name + ": is " + rounded_text(size) + " m long in `" + unit +

@@ -7,6 +7,7 @@
 #include "base/child_process.h"
 #include "base/error.h"
 #include "base/numerics.h"
+#include "geometry/box.h"
 #include "geometry/box_tree.h"
 #include "meshing/cgal_library.h"
 #include "meshing/child_bytes.h"
@@ -39,23 +40,16 @@ constexpr std::size_t large = 20000;       // triangles
 
 std::string packed(const Surface& surface) {
   std::string bytes;
-  const std::size_t vertices = surface.vertices.size();
-  append(bytes, &vertices, 1);
-  for (const Vec3& vertex : surface.vertices) append(bytes, vertex.data(), 3);
-  const std::size_t triangles = surface.triangles.size();
-  append(bytes, &triangles, 1);
-  append(bytes, surface.triangles.data(), triangles);
+  append(bytes, surface.vertices);
+  append(bytes, surface.triangles);
   return bytes;
 }
 
 Surface unpacked_surface(const std::string& bytes) {
   ChildBytes from(bytes, "CGAL");
   Surface surface;
-  std::size_t count = 0;
-  from.take(&count, 1);
-  for (std::size_t v = 0; v < count; ++v) from.take(surface.vertices.emplace_back().data(), 3);
-  from.take(&count, 1);
-  from.take(surface.triangles, count);
+  from.take(surface.vertices);
+  from.take(surface.triangles);
   if (!from.done()) from.refuse();
   return surface;
 }
@@ -92,27 +86,14 @@ double farthest(const Surface& from, const geometry::BoxTree& to, double limit,
   return std::sqrt(most);
 }
 
-struct Box {
-  Vec3 low, high;
-};
-
-Box box_around(const Surface& surface) {
-  Box box{surface.vertices.front(), surface.vertices.front()};
-  for (const Vec3& vertex : surface.vertices) {
-    box.low = box.low.cwiseMin(vertex);
-    box.high = box.high.cwiseMax(vertex);
-  }
-  return box;
-}
-
 // Flat sides of the original stay flat to the last bit: the base of a specimen is known by that.
 // Collapsed edges of a rim end a little above or below its plane.
 void flatten_sides(const Surface& original, double spacing, Surface& surface) {
-  const auto [low, high] = box_around(original);
-  const double flat = 1e-9 * (high - low).norm();
+  const geometry::Box box = geometry::box_of(original.vertices);
+  const double flat = 1e-9 * box.diagonal();
   const double close = 0.05 * spacing;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
-    for (const double side : {low[axis], high[axis]}) {
+    for (const double side : {box.low[axis], box.high[axis]}) {
       double area = 0.0;
       for (std::size_t t = 0; t < original.triangles.size(); ++t) {
         const auto& corners = original.triangles[t];
@@ -228,8 +209,7 @@ double cell_for(const Surface& surface, int nodes) {
 }
 
 double remeshing_limit(const Surface& surface, double spacing) {
-  const auto [low, high] = box_around(surface);
-  return std::min(0.125 * spacing, 0.005 * (high - low).norm());
+  return std::min(0.125 * spacing, 0.005 * geometry::box_of(surface.vertices).diagonal());
 }
 
 std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "base/vec3.h"
+#include "geometry/box.h"
 #include "geometry/box_tree.h"
 #include "geometry/half_edges.h"
 #include "meshing/cgal_library.h"
@@ -217,12 +218,7 @@ constexpr ChildLimits mending_limits{120.0, 8.0 * 1024 * 1024 * 1024};  // s, by
 
 // Vertices within a millionth of the size become one: the rounding of files in single precision.
 int join_near(geometry::Surface& surface) {
-  Vec3 low = surface.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : surface.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
+  const auto [low, high] = geometry::box_of(surface.vertices);
   const double near = 1e-6 * (high - low).norm();
   if (!(near > 0.0)) return 0;
   using Key = std::array<long, 3>;
@@ -253,42 +249,28 @@ int join_near(geometry::Surface& surface) {
 
 std::string packed_mending(const Mending& made) {
   std::string bytes;
-  const auto list = [&](const auto& items) {
-    const std::size_t count = items.size();
-    append(bytes, &count, 1);
-    append(bytes, items.data(), count);
-  };
-  std::vector<double> coordinates;
-  for (const Vec3& vertex : made.surface.vertices)
-    coordinates.insert(coordinates.end(), {vertex.x(), vertex.y(), vertex.z()});
-  list(coordinates);
-  list(made.surface.triangles);
+  append(bytes, made.surface.vertices);
+  append(bytes, made.surface.triangles);
   std::vector<double> holes;
   for (const Mending::Hole& hole : made.holes)
     holes.insert(holes.end(), {hole.place.x(), hole.place.y(), hole.place.z(), hole.around,
                                hole.area, hole.closed ? 1.0 : 0.0});
-  list(holes);
-  list(std::vector<double>{static_cast<double>(made.doubled), static_cast<double>(made.parted),
-                           static_cast<double>(made.fragments), made.area, made.crossing});
+  append(bytes, holes);
+  append(bytes,
+         std::vector<double>{static_cast<double>(made.doubled), static_cast<double>(made.parted),
+                             static_cast<double>(made.fragments), made.area, made.crossing});
   return bytes;
 }
 
 Mending unpacked_mending(const std::string& bytes) {
   ChildBytes from(bytes, "CGAL");
-  const auto list = [&](auto& items) {
-    std::size_t count = 0;
-    from.take(&count, 1);
-    from.take(items, count);
-  };
   Mending made;
-  std::vector<double> coordinates, holes, numbers;
-  list(coordinates);
-  list(made.surface.triangles);
-  list(holes);
-  list(numbers);
-  if (!from.done() || numbers.size() != 5 || coordinates.size() % 3 != 0) from.refuse();
-  for (std::size_t i = 0; i < coordinates.size(); i += 3)
-    made.surface.vertices.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+  std::vector<double> holes, numbers;
+  from.take(made.surface.vertices);
+  from.take(made.surface.triangles);
+  from.take(holes);
+  from.take(numbers);
+  if (!from.done() || numbers.size() != 5) from.refuse();
   for (std::size_t i = 0; i + 5 < holes.size(); i += 6)
     made.holes.push_back(
         {{holes[i], holes[i + 1], holes[i + 2]}, holes[i + 3], holes[i + 4], holes[i + 5] != 0.0});
@@ -468,13 +450,9 @@ MendedSurface mended_surface(geometry::Surface surface, const std::string& name,
     if (!order.repair || surface.vertices.empty() || surface.triangles.empty()) throw;
     fault = error.what();
   }
-  Vec3 low = surface.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : surface.vertices) {
+  for (const Vec3& vertex : surface.vertices)
     if (!vertex.allFinite()) throw MeshError(fault);
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
+  const auto [low, high] = geometry::box_of(surface.vertices);
   for (int axis = 0; axis < 3; ++axis)
     if (low[axis] == high[axis])
       throw MeshError("surface `" + name + "`: is a flat sheet: all its vertices have the same " +

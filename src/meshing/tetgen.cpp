@@ -16,30 +16,20 @@ namespace {
 
 constexpr double most_memory = 8.0 * 1024 * 1024 * 1024;  // bytes: about 20 million tetrahedra
 
-// The child's answer: three counts, then the data.
-struct Counts {
-  std::size_t nodes;
-  std::size_t tetrahedra;
-  std::size_t regions;
-};
-
+// The child's answer.
 std::string packed(const geometry::TetMesh& mesh) {
-  const Counts counts{mesh.nodes.size(), mesh.tetrahedra.size(), mesh.regions.size()};
   std::string bytes;
-  append(bytes, &counts, 1);
-  for (const Vec3& node : mesh.nodes) append(bytes, node.data(), 3);
-  append(bytes, mesh.tetrahedra.data(), mesh.tetrahedra.size());
-  append(bytes, mesh.regions.data(), mesh.regions.size());
+  append(bytes, mesh.nodes);
+  append(bytes, mesh.tetrahedra);
+  append(bytes, mesh.regions);
   return bytes;
 }
 
 geometry::TetMesh taken_mesh(ChildBytes& from) {
-  Counts counts{};
-  from.take(&counts, 1);
   geometry::TetMesh mesh;
-  for (std::size_t n = 0; n < counts.nodes; ++n) from.take(mesh.nodes.emplace_back().data(), 3);
-  from.take(mesh.tetrahedra, counts.tetrahedra);
-  from.take(mesh.regions, counts.regions);
+  from.take(mesh.nodes);
+  from.take(mesh.tetrahedra);
+  from.take(mesh.regions);
   if (!from.done()) from.refuse();
   if (mesh.tetrahedra.empty())
     throw MeshError("TetGen found no inside; close the surface, so that every edge has two faces");
@@ -48,10 +38,8 @@ geometry::TetMesh taken_mesh(ChildBytes& from) {
 
 std::string packed(const PieceMesh& made) {
   std::string bytes;
-  const std::size_t faces = made.faces.size();
-  append(bytes, &faces, 1);
-  append(bytes, made.faces.data(), faces);
-  append(bytes, made.numbers.data(), faces);
+  append(bytes, made.faces);
+  append(bytes, made.numbers);
   return bytes + packed(made.mesh);
 }
 
@@ -111,10 +99,8 @@ PieceMesh tetgen_pieces(const Pieces& pieces, const std::function<double(const V
       [&] { return packed(tetgen_library::run(pieces, size, "pYAq1.5/8o/150O7")); }, time_limit);
   ChildBytes from(bytes, "TetGen");
   PieceMesh made;
-  std::size_t faces = 0;
-  from.take(&faces, 1);
-  from.take(made.faces, faces);
-  from.take(made.numbers, faces);
+  from.take(made.faces);
+  from.take(made.numbers);
   made.mesh = taken_mesh(from);
   return made;
 }

@@ -127,8 +127,8 @@ class Findings {
     const scene::SurfaceTouch& touch = scene_.choice.touch;
     if (scenario.finger.moved)
       warning(
-          "the middle of the body's box is beside the body, so that the finger presses its top "
-          "at " +
+          "at the middle of the body's box there is a gap, or the rim of a hollow, so that the "
+          "finger presses the top at " +
           scene::place_text(scenario, touch.position) + "; set `finger.at` for another place");
     if (!scenario.uniform())
       for (const std::string& sentence : scene::disproportions(scenario, touch, expected_))
@@ -160,6 +160,7 @@ class Findings {
       add("nodes_before_refining", static_cast<double>(refined->start_nodes));
     if (!specimen.warning.empty() && specimen.warning != scene_.choice.touch.warning)
       warning(specimen.warning);
+    if (!specimen.straightened.empty()) warning(specimen.straightened);
     add("tetrahedra", static_cast<double>(specimen.mesh.tetrahedra.size()));
     add("springs", static_cast<double>(specimen.network.springs()));
     add("young_modulus_kPa", unit::kPa.from_si(table_modulus));

@@ -60,8 +60,8 @@ geometry::Surface ball(const scenario::Inclusion& inclusion) {
 geometry::Body given_body(const scene::Scene& scene) {
   const scenario::Resolved& scenario = scene.scenario;
   geometry::Body body;
-  if (scene.of_file) {
-    body.parts.push_back({scene.of_file->surface(), 0});
+  if (const auto& given = scene.solid ? scene.solid->surface : scene.of_file) {
+    body.parts.push_back({given->surface(), 0});
   } else if (const auto shape = scene::parametric(scenario.tissue.shape)) {
     const double spacing = 0.04 * geometry::extent(*shape).norm();
     body = geometry::sampled(*shape, {spacing, spacing});
@@ -143,10 +143,20 @@ std::vector<Face> faces(const geometry::Body& body, const scenario::Resolved& sc
   return found;
 }
 
-// Joins corners that lie in one cell of a grid, the coarser the more faces there are.
+// Joins corners that lie in one cell of a grid, the coarser the more faces there are. Those of held
+// faces, of free ones, and on the border between both are joined among themselves, so that the
+// outline of the base stays where it is.
 std::vector<Face> thinned(std::vector<Face> all) {
   constexpr std::size_t most = 6000;
   if (all.size() <= most) return all;
+  constexpr int held = 1, free = 2;
+  std::map<std::array<double, 3>, int> sides;
+  const auto sides_at = [&](const Vec3& corner) -> int& {
+    return sides[{corner.x(), corner.y(), corner.z()}];
+  };
+  for (const Face& face : all)
+    for (const Vec3& corner : face.corners)
+      if (face.within < 0) sides_at(corner) |= face.held ? held : free;
   Vec3 low = all.front().corners[0], high = low;
   for (const Face& face : all)
     for (const Vec3& corner : face.corners) {
@@ -157,13 +167,13 @@ std::vector<Face> thinned(std::vector<Face> all) {
   for (double cell = (high - low).norm() / 90.0; fewer.empty() || fewer.size() > most;
        cell *= 1.25) {
     fewer.clear();
-    std::map<std::array<int, 4>, Vec3> joined;
+    std::map<std::array<int, 5>, Vec3> joined;
     for (Face face : all) {
       for (Vec3& corner : face.corners) {
         const Vec3 at = (corner - low) / cell;
         corner = joined
                      .try_emplace({static_cast<int>(at.x()), static_cast<int>(at.y()),
-                                   static_cast<int>(at.z()), face.region},
+                                   static_cast<int>(at.z()), face.region, sides_at(corner)},
                                   corner)
                      .first->second;
       }

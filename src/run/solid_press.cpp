@@ -122,6 +122,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.coarser = surface_ < Surface::unchanged;
   body.movable = surface_ < Surface::split;
   body.mesh = given.mesh ? &*given.mesh : nullptr;
+  body.middles = given.middles.empty() ? nullptr : &given.middles;
   body.region_of = [&scenario](int part) { return scene::substance_of(scenario, part); };
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
     solid::Inclusion one{.region = static_cast<int>(i) + 1};

@@ -127,12 +127,6 @@ std::vector<double> densities_of(const scenario::Resolved& scenario) {
   return densities;
 }
 
-void measure_size(Specimen& specimen) {
-  const Box box = box_of(specimen.mesh.nodes);
-  specimen.low = box.low;
-  specimen.high = box.high;
-}
-
 }  // namespace
 
 std::vector<tissue::Isotropic> tissues_of(const scenario::Resolved& scenario) {
@@ -240,13 +234,13 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
     specimen->kinematics =
         traits.coupled() ? tissue::Kinematics::squared : tissue::Kinematics::nonlinear;
   specimen->base = scenario.tissue.base;
-  measure_size(*specimen);
+  const Box box = box_of(specimen->mesh.nodes);
+  specimen->low = box.low;
+  specimen->high = box.high;
   const double top = specimen->high.z();
   const double top_area = shape.top_area;
   const Vec3& up = scenario.tissue.base_up;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vec3& node : specimen->mesh.nodes) lowest = std::min(lowest, node.dot(up));
-  specimen->base_height = shape.base_level - lowest;
+  specimen->base_height = shape.base_level - geometry::reach_along(specimen->mesh.nodes, up).first;
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep`, `relax` and `compress` need a "
@@ -275,6 +269,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   specimen->held = tissue::held_by_base(specimen->mesh, specimen->base, specimen->base_height, up);
   specimen->outer_surface = shape.outer_surface;
   specimen->warning = shape.warning;
+  specimen->straightened = shape.straightened;
   specimen->surface.emplace(shape.surface);
   return specimen;
 }

@@ -57,18 +57,10 @@ std::optional<geometry::Surface> cavity_around(const geometry::Surface& body,
 
 }  // namespace
 
-std::string Box::text() const {
+std::string box_text(const Box& box) {
+  const auto& [low, high] = box;
   return "x " + range_text(low.x(), high.x()) + ", y " + range_text(low.y(), high.y()) + ", z " +
          range_text(low.z(), high.z()) + " mm";
-}
-
-Box box_of(std::span<const Vec3> places) {
-  Box box{places.front(), places.front()};
-  for (const Vec3& place : places) {
-    box.low = box.low.cwiseMin(place);
-    box.high = box.high.cwiseMax(place);
-  }
-  return box;
 }
 
 std::string coordinates_text(const scenario::Resolved& scenario) {
@@ -205,34 +197,95 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
                     " mm^2, but the surface beyond the " +
                     "plane through them, which would be held, has " + rounded_text(1e6 * beyond) +
                     " mm^2; name a group that is the whole end of the body on one side");
-  double low = HUGE_VAL;
-  for (const Vec3& vertex : body.vertices) low = std::min(low, -vertex.dot(outwards));
+  const double low = geometry::reach_along(body.vertices, -outwards).first;
   if (!flat_underside(body, -outwards, low) || height > low + rounding)
     scenario.tissue.base_height = std::max(low, height) + rounding;
   return outwards;
 }
 
-// The middle of the highest triangle, and of the largest one of a flat top.
-Vec3 top_of(const geometry::Surface& body, double size) {
-  const double rounding = 1e-6 * size;
-  Vec3 top(0.0, 0.0, -HUGE_VAL);
-  double largest = 0.0;
+// A flat top with its borders, or the highest triangle of a body without one.
+struct Top {
+  geometry::Surface surface;
+  std::vector<std::vector<std::array<Vec3, 2>>> borders;
+
+  // Whether a place lies in a hole of it, seen from above: some border runs around the place, but
+  // not all of them together.
+  [[nodiscard]] bool has_hole_at(const Vec3& place) const {
+    double turns = 0.0;
+    bool around = false;
+    for (const auto& border : borders) {
+      double angle = 0.0;
+      for (const auto& [from, to] : border) {
+        const Vec3 a = from - place, b = to - place;
+        angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.head<2>().dot(b.head<2>()));
+      }
+      around = around || std::abs(angle) > M_PI;
+      turns += angle;
+    }
+    return around && std::abs(turns) < M_PI;
+  }
+
+  // The place, of some in every triangle, that is farthest from the borders.
+  [[nodiscard]] Vec3 innermost() const {
+    constexpr double enough = 4e4;  // places
+    const double triangles = static_cast<double>(surface.triangles.size());
+    const int parts = std::clamp(static_cast<int>(std::sqrt(enough / triangles)), 3, 24);
+    Vec3 best = Vec3::Zero();
+    double most = 0.0;
+    for (const auto& [a, b, c] : surface.triangles)
+      for (int i = 0; i <= parts; ++i)
+        for (int j = 0; i + j <= parts; ++j) {
+          const Vec3 place =
+              (i * surface.vertices[as_index(a)] + j * surface.vertices[as_index(b)] +
+               (parts - i - j) * surface.vertices[as_index(c)]) /
+              parts;
+          double nearest = HUGE_VAL;
+          for (const auto& border : borders)
+            for (const auto& [from, to] : border) {
+              const Vec3 along = to - from;
+              const double at =
+                  std::clamp((place - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+              nearest = std::min(nearest, (place - from - at * along).norm());
+            }
+          constexpr double rounding = 1e-6;
+          if (nearest <= (1.0 + rounding) * most) continue;
+          most = nearest;
+          best = place;
+        }
+    return best;
+  }
+};
+
+Top top_of(const geometry::Surface& body) {
+  const Box box = box_of(body.vertices);
+  const double rounding = 1e-6 * (box.high - box.low).norm();
+  std::vector<int> flat;
+  int highest = 0;
+  double height = -HUGE_VAL;
   for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
-    const auto& [a, b, c] = body.triangles[as_index(t)];
-    const Vec3 middle =
-        (body.vertices[as_index(a)] + body.vertices[as_index(b)] + body.vertices[as_index(c)]) /
-        3.0;
-    const double area = geometry::twice_area(body, t).norm();
-    if (middle.z() < top.z() - rounding || (middle.z() <= top.z() + rounding && area <= largest))
-      continue;
-    top = middle;
-    largest = area;
+    double low = HUGE_VAL, sum = 0.0;
+    for (const int v : body.triangles[as_index(t)]) {
+      low = std::min(low, body.vertices[as_index(v)].z());
+      sum += body.vertices[as_index(v)].z();
+    }
+    if (low >= box.high.z() - rounding) flat.push_back(t);
+    if (sum <= height) continue;
+    height = sum;
+    highest = t;
+  }
+  if (flat.empty()) flat.push_back(highest);
+  Top top{geometry::piece_of(body, flat), {}};
+  for (const auto& hole : geometry::joints(top.surface).holes) {
+    auto& border = top.borders.emplace_back();
+    for (const auto& edge : hole)
+      border.push_back(
+          {top.surface.vertices[as_index(edge.from)], top.surface.vertices[as_index(edge.to)]});
   }
   return top;
 }
 
-// A finger without a place presses the middle of the body's box, or the top of a body that has
-// nothing there, as a ring.
+// A finger without a place presses the middle of the body's box. Where that is beside the body, as
+// in a ring, or a hollow of a flat top on whose rim the finger rests, it presses the top.
 void leave_empty_middle(scenario::Resolved& scenario, const geometry::SmoothSurface& surface) {
   const geometry::Surface& body = surface.surface();
   const Box box = box_of(body.vertices);
@@ -246,16 +299,19 @@ void leave_empty_middle(scenario::Resolved& scenario, const geometry::SmoothSurf
     };
     return side(0) != side(1) || side(1) != side(2);
   };
-  if (!std::ranges::all_of(body.triangles, beside)) return;
+  const Top top = top_of(body);
+  const bool hollow = top.has_hole_at(middle);
+  if (!hollow && !std::ranges::all_of(body.triangles, beside)) return;
   const Vec3 centre = Vec3::Zero();
   try {
-    (void)lowered_onto(surface, middle, {{&centre, 1}, scenario.finger.radius});
+    const FirstTouch first = lowered_onto(surface, middle, {{&centre, 1}, scenario.finger.radius});
+    if (!hollow || !first.on_crease) return;
   } catch (const MeshError&) {
-    const Vec3 top = top_of(body, (box.high - box.low).norm());
-    scenario.finger.x = top.x();
-    scenario.finger.y = top.y();
-    scenario.finger.moved = true;
   }
+  const Vec3 place = top.innermost();
+  scenario.finger.x = place.x();
+  scenario.finger.y = place.y();
+  scenario.finger.moved = true;
 }
 
 // The nearest place of a surface without the walls of its cavities.
@@ -332,25 +388,15 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
 Eigen::Matrix3d standing(const scenario::Resolved& scenario) { return turn_up(up_of(scenario)); }
 
 Box box_in_file(const scenario::Resolved& scenario, std::span<const Vec3> places) {
-  const Eigen::Matrix3d back = scenario.tissue.turn.transpose();
-  Box box{back * places.front(), back * places.front()};
-  for (const Vec3& place : places) {
-    const Vec3 own = back * place;
-    box.low = box.low.cwiseMin(own);
-    box.high = box.high.cwiseMax(own);
-  }
-  return box;
+  std::vector<Vec3> own;
+  for (const Vec3& place : places) own.emplace_back(scenario.tissue.turn.transpose() * place);
+  return box_of(own);
 }
 
 double base_level(const scenario::Resolved& scenario, const geometry::Surface& body) {
   if (scenario.tissue.base_height) return *scenario.tissue.base_height;
   const Vec3& up = scenario.tissue.base_up;
-  double low = body.vertices.front().dot(up);
-  double high = low;
-  for (const Vec3& vertex : body.vertices) {
-    low = std::min(low, vertex.dot(up));
-    high = std::max(high, vertex.dot(up));
-  }
+  const auto [low, high] = geometry::reach_along(body.vertices, up);
   return flat_underside(body, up, low).value_or(low + 0.1 * (high - low));
 }
 
@@ -458,7 +504,7 @@ double share_inside(const geometry::Surface& body, const geometry::Inclusion& in
 void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface& body,
                     const scenario::Family& family, const std::string& part) {
   const Box box = box_of(body.vertices);
-  const std::string own_box = box_in_file(scenario, body.vertices).text();
+  const std::string own_box = box_text(box_in_file(scenario, body.vertices));
   const std::string where =
       ", " + coordinates_text(scenario) + (part.empty() ? "" : ", where it is " + part);
   for (std::size_t i = 0; i < scenario.regions.size(); ++i) {
@@ -481,24 +527,19 @@ void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface&
       const Box own{in_file - around, in_file + around};
       if (share >= least_inside) continue;
       std::string text =
-          outside(i, share, own.text(), own_box + where, "change `centre` or `radius`");
+          outside(i, share, box_text(own), own_box + where, "change `centre` or `radius`");
       if (const auto cavity = cavity_around(body, {centre, ball->radius, 0}, share))
         text = "`[[region]]` " + std::to_string(i + 1) + " lies " +
                (share > 0.0 ? "with " + percent_text(1.0 - share) + " of its volume " : "") +
-               "in a cavity of the body: it has " + own.text() + ", the cavity " +
-               box_in_file(scenario, cavity->vertices).text() + where +
+               "in a cavity of the body: it has " + box_text(own) + ", the cavity " +
+               box_text(box_in_file(scenario, cavity->vertices)) + where +
                "; change `centre` or `radius`";
       throw InputError(place_of(family.document, path + ".centre"), text);
     }
   }
   const auto& height = scenario.tissue.base_height;
   if (!height) return;
-  double low = body.vertices.front().dot(scenario.tissue.base_up);
-  double high = low;
-  for (const Vec3& vertex : body.vertices) {
-    low = std::min(low, vertex.dot(scenario.tissue.base_up));
-    high = std::max(high, vertex.dot(scenario.tissue.base_up));
-  }
+  const auto [low, high] = geometry::reach_along(body.vertices, scenario.tissue.base_up);
   if (*height < low || *height >= high)
     throw InputError(place_of(family.document, "tissue.base_height"),
                      "the base ends at a height of " + rounded_text(unit::mm.from_si(*height), 4) +

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/body.h"
+#include "geometry/box.h"
 #include "scenario/family.h"
 #include "scenario/resolved.h"
 
@@ -13,15 +14,10 @@ namespace palpate::scene {
 
 class SpecimenShapes;
 
-struct Box {
-  Vec3 low = Vec3::Zero();  // m
-  Vec3 high = Vec3::Zero();
+using geometry::Box;
+using geometry::box_of;
 
-  [[nodiscard]] std::string text() const;  // "x -30 to 30, y -30 to 30, z 0 to 30 mm"
-};
-
-// At least one place is needed.
-[[nodiscard]] Box box_of(std::span<const Vec3> places);
+[[nodiscard]] std::string box_text(const Box& box);  // "x -30 to 30, y -30 to 30, z 0 to 30 mm"
 
 // "in the file's coordinates", or "from the lowest corner of its box".
 [[nodiscard]] std::string coordinates_text(const scenario::Resolved& scenario);

@@ -81,7 +81,7 @@ void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch
     return;
   throw InputError(place_of(family.document, "finger.at"),
                    "`at` is " + mm_text(distance) + " from the surface of the body, which has " +
-                       Box{touch.low, touch.high}.text() + ", " + coordinates_text(scenario) +
+                       box_text({touch.low, touch.high}) + ", " + coordinates_text(scenario) +
                        "; give a place on the surface, and check its unit" +
                        unit_text(scenario, touch));
 }
@@ -101,6 +101,10 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
                     ": few tissues are tested at "
                     "such strains; press less deep, or check the size of the body" +
                     units);
+  else if (hollow > 0.0 && travel > hollow)
+    found.push_back("the press is deeper than the " + mm_text(hollow) +
+                    " that are hollow under the finger: the curve of `solid` ends where the walls "
+                    "meet, and springs pass through each other there; press less deep");
   const double width = touch.size.head<2>().minCoeff();
   const double radius = scenario.finger.radius;
   if (radius > width || estimates.contact_radius > 0.5 * width)

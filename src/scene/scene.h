@@ -10,6 +10,7 @@
 #include "contact/law.h"
 #include "contact/layer.h"
 #include "contact/relaxation.h"
+#include "geometry/curved_edges.h"
 #include "geometry/shapes.h"
 #include "geometry/smooth_surface.h"
 #include "geometry/tet_mesh.h"
@@ -30,8 +31,9 @@ struct Scene;
 // One of the first three gives the body; inclusions and layers of the scenario come on top.
 struct SolidBody {
   std::optional<geometry::Shape> shape;
-  std::shared_ptr<const geometry::SmoothSurface> surface;        // of a file
-  std::optional<geometry::TetMesh> mesh;                         // with the numbers of substances
+  std::shared_ptr<const geometry::SmoothSurface> surface;  // of a file, or of a mesh of one tissue
+  std::optional<geometry::TetMesh> mesh;                   // with the numbers of substances
+  geometry::EdgeMiddles middles;                           // of a mesh of curved tetrahedra
   std::shared_ptr<const geometry::SmoothSurface> outer_surface;  // the surface of any of them
   double base_level = 0.0;          // m; the surface up to here along `tissue.base_up` is held
   Vec3 first_touch = Vec3::Zero();  // m, the finger's point there
@@ -169,7 +171,8 @@ struct Specimen {
   Vec3 high = Vec3::Zero();
   std::vector<int> outer_surface;  // the node of every vertex of `surface`
   std::optional<geometry::SmoothSurface> surface;
-  std::string warning;                     // that of meshing::FileMesh, or empty
+  std::string warning;  // those of SpecimenShape
+  std::string straightened;
   tissue::Uniaxial measured;               // E and nu of the network with the tissue everywhere
   tissue::Uniaxial pressed;                // response to platens, for a uniform test
   std::vector<char> held;                  // in a press and in creep

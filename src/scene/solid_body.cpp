@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "geometry/curved_edges.h"
 #include "geometry/surface.h"
+#include "meshing/surface_repair.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
 #include "scene/specimen_mesh.h"
@@ -31,16 +33,33 @@ void find_touch(SolidBody& body, const Scene& scene) {
   body.touched = body.outer_surface->position(first.at);
 }
 
+// Whether a body of one tissue can be meshed anew from the boundary of its mesh.
+bool bounds_a_body(const geometry::Surface& boundary, const std::string& name) {
+  try {
+    meshing::check_closed(boundary, name);
+  } catch (const MeshError&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::unique_ptr<SolidBody> make_solid_body(const Scene& scene, const std::string& folder) {
   constexpr double spacing_over_size = 0.02;  // of shapes, for the first touch alone
   const scenario::Resolved& scenario = scene.scenario;
   auto body = std::make_unique<SolidBody>();
-  if (std::holds_alternative<scenario::MeshFile>(scenario.tissue.mesh)) {
-    body->mesh = specimen_mesh(scenario, folder, nullptr).mesh;
-    body->outer_surface = std::make_shared<const geometry::SmoothSurface>(
-        geometry::outer_surface(*body->mesh).surface);
+  if (const auto* file = std::get_if<scenario::MeshFile>(&scenario.tissue.mesh)) {
+    SpecimenMesh made = specimen_mesh(scenario, folder, nullptr);
+    geometry::Surface boundary = geometry::curved_boundary(made.mesh, made.middles);
+    const bool alone = made.mesh.regions.empty() && bounds_a_body(boundary, file->file);
+    body->outer_surface = std::make_shared<const geometry::SmoothSurface>(std::move(boundary));
+    if (alone) {
+      body->surface = body->outer_surface;
+    } else {
+      body->mesh = std::move(made.mesh);
+      body->middles = std::move(made.middles);
+    }
   } else if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape)) {
     body->surface = body->outer_surface = scene.of_file;
   } else {

@@ -130,18 +130,26 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
     }
   } else {
     const auto& file = std::get<scenario::MeshFile>(scenario.tissue.mesh);
-    auto [found, names, warning] = mesh_of(file, folder);
-    for (Vec3& node : found.nodes) node = scenario.tissue.turn * node;
-    made = {std::move(found), std::move(warning), std::move(names)};
+    meshing::NamedMesh read = mesh_of(file, folder);
+    for (Vec3& node : read.mesh.nodes) node = scenario.tissue.turn * node;
+    for (auto& [edge, middle] : read.middles) middle = scenario.tissue.turn * middle;
+    made = {std::move(read.mesh), std::move(read.warning), std::move(read.names),
+            std::move(read.middles), std::move(read.straightened)};
     name = "the mesh of " + file.file;
   }
   meshing::check(mesh, name, volume);
   std::vector<double> heights = slab_levels(scenario);
   const Box around = box_of(mesh.nodes);
   std::erase_if(heights, [&](double z) { return z <= around.low.z() || z >= around.high.z(); });
+  const std::vector<Vec3> before = made.middles.empty() ? std::vector<Vec3>{} : mesh.nodes;
   for (const double height : heights)
     mesh = meshing::cut_at(std::move(mesh), height, false, parametric(scenario.tissue.shape));
   if (!heights.empty()) {
+    std::erase_if(made.middles, [&](const auto& one) {  // of nodes that the cuts moved
+      return std::any_of(one.first.begin(), one.first.end(), [&](int node) {
+        return mesh.nodes[as_index(node)] != before[as_index(node)];
+      });
+    });
     number_slabs(mesh, scenario);
     meshing::check(mesh, name + ", cut at the layers,", volume);
   }
@@ -204,33 +212,17 @@ void stand_up(geometry::TetMesh& mesh) {
 }  // namespace
 
 std::optional<geometry::Shape> parametric(const scenario::Shape& shape) {
-  struct Convert {
-    std::optional<geometry::Shape> operator()(const scenario::Cuboid& box) const {
-      return geometry::Cuboid{Vec3(box.size[0], box.size[1], box.size[2])};
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Cylinder& s) const {
-      return geometry::Shape(static_cast<const geometry::Cylinder&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Ellipsoid& s) const {
-      return geometry::Shape(static_cast<const geometry::Ellipsoid&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Ligament& s) const {
-      return geometry::Shape(static_cast<const geometry::Ligament&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::BoneShaft& s) const {
-      return geometry::Shape(static_cast<const geometry::BoneShaft&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::LayeredLimb& s) const {
-      return geometry::Shape(static_cast<const geometry::LayeredLimb&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::Disc& s) const {
-      return geometry::Shape(static_cast<const geometry::Disc&>(s));
-    }
-    std::optional<geometry::Shape> operator()(const scenario::HalfSpace&) const { return {}; }
-    std::optional<geometry::Shape> operator()(const scenario::SurfaceFile&) const { return {}; }
-    std::optional<geometry::Shape> operator()(const scenario::AsMeshed&) const { return {}; }
-  };
-  return std::visit(Convert{}, shape);
+  return std::visit(
+      [](const auto& one) -> std::optional<geometry::Shape> {
+        using One = std::remove_cvref_t<decltype(one)>;
+        if constexpr (std::is_same_v<One, scenario::Cuboid>)
+          return geometry::Cuboid{Vec3(one.size[0], one.size[1], one.size[2])};
+        else if constexpr (std::is_constructible_v<geometry::Shape, const One&>)
+          return geometry::Shape(one);
+        else
+          return std::nullopt;
+      },
+      shape);
 }
 
 std::vector<double> slab_levels(const Scenario& scenario) {

@@ -51,6 +51,8 @@ struct SpecimenMesh {
   geometry::TetMesh mesh;
   std::string warning = {};  // that of meshing::FileMesh or meshing::NamedMesh, or empty
   std::map<std::string, int> names = {};  // of the file's regions
+  geometry::EdgeMiddles middles = {};     // of a file, as are those of meshing::NamedMesh
+  std::string straightened = {};
 };
 
 // The mesh with the numbers of its substances: TetMesh::regions are 0 for `tissue.material`, then

@@ -11,6 +11,7 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "contact/hertz.h"
+#include "geometry/box.h"
 #include "geometry/surface.h"
 #include "meshing/bisection.h"
 #include "meshing/mesh_check.h"
@@ -38,17 +39,6 @@ double flat_area(const geometry::OuterSurface& outer_surface, double z, double t
   return sum;
 }
 
-// The lowest and highest z of a mesh, m.
-std::pair<double, double> reach(const geometry::TetMesh& mesh) {
-  double low = mesh.nodes.front().z();
-  double high = low;
-  for (const Vec3& node : mesh.nodes) {
-    low = std::min(low, node.z());
-    high = std::max(high, node.z());
-  }
-  return {low, high};
-}
-
 // Whether the mesh depends on the finger's position: graded structured meshes are finer under the
 // finger.
 bool knows_finger(const scenario::Mesh& mesh) {
@@ -62,25 +52,24 @@ bool knows_finger(const scenario::Mesh& mesh) {
 
 SpecimenShape shape_of(geometry::TetMesh mesh, double base_level) {
   geometry::OuterSurface outer_surface = geometry::outer_surface(mesh);
-  const auto [low, high] = reach(mesh);
+  const auto [low, high] = geometry::reach_along(mesh.nodes, Vec3::UnitZ());
   const double flat = 1e-9 * geometry::diagonal(mesh);
   const double top_area = flat_area(outer_surface, high, flat);
   const double bottom_area = flat_area(outer_surface, low, flat);
-  return {std::move(mesh),
-          std::move(outer_surface.nodes),
-          geometry::SmoothSurface(std::move(outer_surface.surface)),
-          top_area,
-          bottom_area,
-          base_level,
-          "",
-          std::nullopt};
+  return {.mesh = std::move(mesh),
+          .outer_surface = std::move(outer_surface.nodes),
+          .surface = geometry::SmoothSurface(std::move(outer_surface.surface)),
+          .top_area = top_area,
+          .bottom_area = bottom_area,
+          .base_level = base_level};
 }
 
 SpecimenShape make_shape(const Scenario& scenario, const std::string& folder,
                          const geometry::SmoothSurface* of_file) {
-  auto [mesh, warning, names] =
+  SpecimenMesh made =
       specimen_mesh(scenario, folder, of_file == nullptr ? nullptr : &of_file->surface());
-  const auto [low, high] = reach(mesh);
+  geometry::TetMesh& mesh = made.mesh;
+  const auto [low, high] = geometry::reach_along(mesh.nodes, Vec3::UnitZ());
   const double rounding = 1e-4 * (high - low);  // of files, in a flat underside
   const double level = base_level(scenario, geometry::outer_surface(mesh).surface);
   if (level > low + rounding && !scenario.uniform() && scenario.tissue.held_from_below() &&
@@ -89,7 +78,8 @@ SpecimenShape make_shape(const Scenario& scenario, const std::string& folder,
     meshing::check(mesh, "the mesh, cut at the border of the base,", 0.0);
   }
   SpecimenShape shape = shape_of(std::move(mesh), level);
-  shape.warning = std::move(warning);
+  shape.warning = std::move(made.warning);
+  shape.straightened = std::move(made.straightened);
   return shape;
 }
 
@@ -218,8 +208,8 @@ int SpecimenShapes::near_part(const Scenario& scenario, const std::string& folde
   return 0;
 }
 
-SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario,
-                                                        const std::string& folder) {
+SpecimenShapes::FileEntry& SpecimenShapes::file_entry(const Scenario& scenario,
+                                                      const std::string& folder) {
   const auto& file = std::get<scenario::SurfaceFile>(scenario.tissue.shape);
   std::string key = parts_key(scenario, folder) + std::to_string(file.part.value_or(0)) + " " +
                     std::to_string(scenario.tissue.near_part);
@@ -228,30 +218,23 @@ SpecimenShapes::FileSurface& SpecimenShapes::file_entry(const Scenario& scenario
   return surfaces_[key];
 }
 
-void SpecimenShapes::FileSurface::copy(const FileSurface& other) {
-  surface = other.surface;
-  warning = other.warning;
-  part = other.part;
-  fault = other.fault;
-  refusal = other.refusal;
-}
-
 void SpecimenShapes::know_surface(const Scenario& scenario, const std::string& folder,
                                   SpecimenShapes& from) {
-  FileSurface& known = file_entry(scenario, folder);
-  const std::lock_guard lock(known.reading);
-  known.copy(from.surface(scenario, folder));
+  FileEntry& entry = file_entry(scenario, folder);
+  const std::lock_guard lock(entry.reading);
+  entry.surface = from.surface(scenario, folder);
 }
 
 const SpecimenShapes::FileSurface& SpecimenShapes::surface(const Scenario& scenario,
                                                            const std::string& folder) {
-  FileSurface& known = file_entry(scenario, folder);
-  const std::lock_guard lock(known.reading);
+  FileEntry& entry = file_entry(scenario, folder);
+  const std::lock_guard lock(entry.reading);
+  FileSurface& known = entry.surface;
   if (known.surface || !known.fault.empty()) return known;
   if (const Eigen::Matrix3d turn = scenario.tissue.turn; turn != Eigen::Matrix3d::Identity()) {
     Scenario plain = scenario;
     plain.tissue.turn = Eigen::Matrix3d::Identity();
-    known.copy(surface(plain, folder));
+    known = surface(plain, folder);
     if (!known.surface) return known;
     geometry::Surface turned = known.surface->surface();
     for (Vec3& vertex : turned.vertices) vertex = turn * vertex;

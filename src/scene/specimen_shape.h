@@ -30,7 +30,8 @@ struct SpecimenShape {
   double top_area = 0.0;     // m^2, of the flat upper end; 0 if there is none
   double bottom_area = 0.0;  // m^2
   double base_level = 0.0;   // m, absolute; the surface up to this height is the base
-  std::string warning;       // of SpecimenMesh
+  std::string warning = {};  // of SpecimenMesh
+  std::string straightened = {};
   std::optional<Refined> refined = {};
 };
 
@@ -66,7 +67,6 @@ class SpecimenShapes {
 
   // The surface of a file for closed forms, or a sentence on why there is none.
   struct FileSurface {
-    std::mutex reading;
     std::shared_ptr<const geometry::SmoothSurface> surface;
     std::string warning;         // of meshing::WholeSurface
     std::string part;            // likewise
@@ -74,7 +74,6 @@ class SpecimenShapes {
     std::exception_ptr refusal;  // the same as it was thrown
     // Throws the refusal, if there is one.
     [[nodiscard]] const std::shared_ptr<const geometry::SmoothSurface>& must() const;
-    void copy(const FileSurface& other);  // all but the mutex
   };
   // The surface of a scenario whose shape is a SurfaceFile, turned as the scenario says; read and
   // mended once.
@@ -111,8 +110,12 @@ class SpecimenShapes {
   template <class Part, class Made>
   void fill(Entry& entry, std::unique_ptr<Part>& part, const Made& made);
   [[nodiscard]] Entry& entry(const scenario::Resolved& scenario);
-  [[nodiscard]] FileSurface& file_entry(const scenario::Resolved& scenario,
-                                        const std::string& folder);
+  struct FileEntry {
+    std::mutex reading;
+    FileSurface surface;
+  };
+  [[nodiscard]] FileEntry& file_entry(const scenario::Resolved& scenario,
+                                      const std::string& folder);
   // All parts of a file, mended, or why they cannot be read.
   struct AllParts {
     std::mutex reading;
@@ -126,8 +129,8 @@ class SpecimenShapes {
   std::mutex looking_up_;
   std::map<std::string, Entry> entries_;
   std::atomic<double> seconds_ = 0.0;
-  std::map<std::string, AllParts> parts_;        // by path, unit and what is mended
-  std::map<std::string, FileSurface> surfaces_;  // by these, part and turn
+  std::map<std::string, AllParts> parts_;      // by path, unit and what is mended
+  std::map<std::string, FileEntry> surfaces_;  // by these, part and turn
 
   std::map<std::string, std::pair<std::mutex, std::optional<Numbers>>> numbers_;
 };

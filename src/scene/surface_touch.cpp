@@ -155,11 +155,7 @@ struct Below {
 
 Below below(const geometry::Surface& surface, const Vec3& point) {
   constexpr double own = 1e-3;  // of the height: less is the point's own triangle
-  double low = point.z(), high = point.z();
-  for (const Vec3& vertex : surface.vertices) {
-    low = std::min(low, vertex.z());
-    high = std::max(high, vertex.z());
-  }
+  const auto [low, high] = geometry::reach_along(surface.vertices, Vec3::UnitZ());
   std::vector<std::pair<double, bool>> crossings;  // z, and whether it is an underside
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const Vec3 twice = geometry::twice_area(surface, static_cast<int>(t));

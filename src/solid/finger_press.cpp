@@ -13,31 +13,24 @@
 #include "base/units.h"
 #include "contact/elliptic.h"
 #include "contact/hertz.h"
+#include "geometry/box.h"
 #include "geometry/box_tree.h"
 #include "geometry/surface.h"
 
 namespace palpate::solid {
 namespace {
 
-struct Extent {
-  Vec3 low, high;
-};
+using geometry::Box;
 
-Extent extent_of(const BodyOrder& order) {
+Box extent_of(const BodyOrder& order) {
   if (order.shape) return {Vec3::Zero(), geometry::extent(*order.shape)};
-  const std::vector<Vec3>& places =
-      order.surface != nullptr ? order.surface->surface().vertices : order.mesh->nodes;
-  Extent found{places.front(), places.front()};
-  for (const Vec3& place : places) {
-    found.low = found.low.cwiseMin(place);
-    found.high = found.high.cwiseMax(place);
-  }
-  return found;
+  return geometry::box_of(order.surface != nullptr ? order.surface->surface().vertices
+                                                   : order.mesh->nodes);
 }
 
 // Around the touched places, through the layers under them, and in balls.
 //                                                                       docs/theory.md [solid_mesh]
-Sizes sizes_for(const BodyOrder& order, const Extent& extent) {
+Sizes sizes_for(const BodyOrder& order, const Box& extent) {
   Sizes sizes;
   const double a = std::sqrt(order.radius * order.travel);
   const double size = a / order.per_radius;
@@ -75,7 +68,7 @@ Plane base_plane(const BodyOrder& order) {
 }
 
 // The mirrors of the order that the body has as well.
-std::vector<Plane> mirrors_of(const BodyOrder& order, const Extent& extent) {
+std::vector<Plane> mirrors_of(const BodyOrder& order, const Box& extent) {
   std::vector<Plane> found;
   if (order.mesh != nullptr || order.touched.empty()) return found;
   for (const int axis : {0, 1}) {
@@ -123,9 +116,9 @@ void hold(Body& body, const std::set<int>& base, tissue::Base kind) {
   if (!body.mirrored[0] && !body.mirrored[1]) set(guide, 1);
 }
 
-void support(const BodyOrder& order, std::span<const Plane> mirrors, const Extent& extent,
+void support(const BodyOrder& order, std::span<const Plane> mirrors, const Box& extent,
              Body& body) {
-  const double rounding = 1e-7 * (extent.high - extent.low).norm();
+  const double rounding = 1e-7 * extent.diagonal();
   body.held.assign(3 * body.mesh.nodes.size(), 0);
   for (const Plane& mirror : mirrors) {
     body.copies *= 2;
@@ -159,13 +152,14 @@ void support(const BodyOrder& order, std::span<const Plane> mirrors, const Exten
 }  // namespace
 
 Body make_body(const BodyOrder& order) {
-  const Extent extent = extent_of(order);
+  const Box extent = extent_of(order);
   const std::vector<Plane> mirrors = mirrors_of(order, extent);
   MeshOrder wanted{.shape = order.shape,
                    .surface = order.surface,
                    .coarser = order.coarser,
                    .movable = order.movable,
                    .mesh = order.mesh,
+                   .middles = order.middles,
                    .region_of = order.region_of,
                    .inclusions = order.inclusions,
                    .mirrors = mirrors,
@@ -429,7 +423,7 @@ std::optional<Answer> FingerPress::go(double travel) {
              quantity_text(travel / order_.share, unit::mm) + " of " +
              quantity_text(order_.deepest, unit::mm)});
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
-  if (!found) tissue_.end = End::folds;
+  if (!found) tissue_.end = press_->walls_meet() ? End::closes : End::folds;
   return found;
 }
 
@@ -461,6 +455,9 @@ std::string FingerPress::end_text() const {
       " beyond a displacement of " + rounded_text(unit::mm.from_si(found_to()), 3) + " mm";
   if (ball_.end != End::open)
     return "the solid finds no equilibrium of the finger's ball" + beyond + "; press less deep";
+  if (tissue_.end == End::closes)
+    return "the walls of the hollow under the finger meet" + beyond +
+           ", and the solid has no contact between them; press less deep";
   if (tissue_.end == End::snaps)
     return "a wall snaps away from the finger" + beyond + "; press less deep";
   return "the solid finds no equilibrium" + beyond +

@@ -23,6 +23,7 @@ struct BodyOrder {
   bool coarser = true;  // as there
   bool movable = true;  // as there
   const geometry::TetMesh* mesh = nullptr;
+  const geometry::EdgeMiddles* middles = nullptr;
   std::function<int(int)> region_of = {};
   std::vector<Inclusion> inclusions = {};
 
@@ -135,7 +136,7 @@ class FingerPress {
     Moment moment;
   };
   // Why a curve has no more points.
-  enum class End { open, folds, snaps };
+  enum class End { open, folds, snaps, closes };
   // The force on the tissue, or on the ball, over its part of the travel.
   struct Curve {
     std::vector<Point> points = {};

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "geometry/body.h"
+#include "geometry/box.h"
 #include "geometry/box_tree.h"
 #include "geometry/half_edges.h"
 #include "meshing/bisection.h"
@@ -43,7 +44,7 @@ class Mesher {
     for (const Inclusion& one : order_.inclusions)
       if (!one.sphere)
         for (const double level : {one.bottom, one.top})
-          if (level > low_.z() && level < high_.z()) add_level(level);
+          if (level > box_.low.z() && level < box_.high.z()) add_level(level);
     for (const Plane& level : levels_) net.cut(level);
     if (const auto& base = order_.base;
         base && std::none_of(levels_.begin(), levels_.end(), [&](const Plane& level) {
@@ -91,11 +92,7 @@ class Mesher {
         cavities_.push_back(std::move(part.surface));
       }
     }
-    low_ = high_ = faces_.vertices.front();
-    for (const Vec3& vertex : faces_.vertices) {
-      low_ = low_.cwiseMin(vertex);
-      high_ = high_.cwiseMax(vertex);
-    }
+    box_ = geometry::box_of(faces_.vertices);
     for (std::size_t i = 0; i < order_.inclusions.size(); ++i) {
       if (!order_.inclusions[i].sphere) continue;
       const geometry::Inclusion& sphere = *order_.inclusions[i].sphere;
@@ -296,7 +293,7 @@ class Mesher {
         of_edge[{std::min(a, b), std::max(a, b)}].push_back(filled.numbers[f]);
       }
     const std::vector<Vec3>& nodes = filled.mesh.nodes;
-    const double rounding = 1e-9 * (high_ - low_).norm();
+    const double rounding = 1e-9 * box_.diagonal();
     return quadratic(filled.mesh, [&](const std::array<int, 2>& edge) -> std::optional<Vec3> {
       const auto found = of_edge.find(edge);
       if (found == of_edge.end()) return std::nullopt;
@@ -318,7 +315,7 @@ class Mesher {
   geometry::Surface faces_;
   std::vector<int> numbers_;
   std::vector<Plane> levels_;
-  Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();
+  geometry::Box box_;
 };
 
 // Halves tetrahedra of a given mesh that are too large.
@@ -326,6 +323,8 @@ Mesh refined(const MeshOrder& order) {
   constexpr double longest = 1.8;
   constexpr int most_rounds = 30;
   geometry::TetMesh mesh = *order.mesh;
+  std::optional<geometry::CurvedEdges> curved;
+  if (order.middles != nullptr) curved.emplace(mesh.nodes, *order.middles);
   meshing::TrueBoundary boundary(mesh, std::nullopt, {}, {});
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<char> marks(mesh.tetrahedra.size(), 0);
@@ -344,12 +343,16 @@ Mesh refined(const MeshOrder& order) {
       any = true;
     }
     if (!any) break;
-    meshing::Bisection bisection(
-        mesh, [&](const meshing::Bisection::Middle& edge) { return boundary.place(edge); });
+    meshing::Bisection bisection(mesh, [&](const meshing::Bisection::Middle& edge) {
+      return curved ? curved->split(edge.a, edge.b) : boundary.place(edge);
+    });
     bisection.halve(marks);
     mesh = bisection.mesh();
   }
-  return quadratic(mesh);
+  if (!curved) return quadratic(mesh);
+  return quadratic(mesh, [&](const std::array<int, 2>& edge) -> std::optional<Vec3> {
+    return curved->middle(edge[0], edge[1]);
+  });
 }
 
 }  // namespace
@@ -372,13 +375,7 @@ Mesh mesh_for(const MeshOrder& order) {
 
 bool symmetric(const geometry::Surface& surface, const Plane& plane) {
   const geometry::BoxTree tree(surface);
-  Vec3 low = surface.vertices.front();
-  Vec3 high = low;
-  for (const Vec3& vertex : surface.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
-  const double near = 1e-4 * (high - low).norm();
+  const double near = 1e-4 * geometry::box_of(surface.vertices).diagonal();
   return std::all_of(surface.vertices.begin(), surface.vertices.end(), [&](Vec3 vertex) {
     vertex[plane.axis] = 2.0 * plane.at - vertex[plane.axis];
     return tree.nearest(vertex).distance_squared < near * near;

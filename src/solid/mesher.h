@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/curved_edges.h"
 #include "geometry/shapes.h"
 #include "geometry/smooth_surface.h"
 #include "solid/elements.h"
@@ -44,6 +45,7 @@ struct MeshOrder {
   bool coarser = true;                      // whether that may get larger triangles far away
   bool movable = true;                      // whether its edges may turn and its vertices move
   const geometry::TetMesh* mesh = nullptr;  // with its regions; is only refined
+  const geometry::EdgeMiddles* middles = nullptr;  // of the mesh, if it is curved
   // Regions of the shape's own parts, by their numbers there.
   std::function<int(int)> region_of = {};
   std::vector<Inclusion> inclusions = {};  // later ones replace earlier ones

@@ -337,6 +337,38 @@ int Press::images_of(const Vec3& pole) const {
   return images;
 }
 
+// Whether the vertical line through a place leaves the displaced body where it is outside already,
+// or enters it where it is inside.
+bool Press::walls_cross(const Vector& displacement, const Vec3& place) const {
+  constexpr std::size_t parts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  // Beside the edges that lie on mirrors.
+  const Vec3 line = place + body_.size * Vec3(0.0131, 0.0073, 0.0);
+  std::vector<std::pair<double, bool>> crossings;  // height, and whether it enters from above
+  for (const OuterFace& face : body_.mesh.boundary) {
+    std::array<Vec3, 6> at;
+    for (std::size_t i = 0; i < 6; ++i)
+      at[i] = body_.mesh.nodes[as_index(face.nodes[i])] +
+              displacement.segment<3>(3 * face.nodes[i]) - line;
+    for (const auto& [a, b, c] : parts) {
+      const auto twice = [&](std::size_t from, std::size_t to) {
+        return at[from].x() * at[to].y() - at[from].y() * at[to].x();
+      };
+      const double of_a = twice(b, c), of_b = twice(c, a), of_c = twice(a, b);
+      const double sum = of_a + of_b + of_c;
+      if (sum == 0.0 || std::min({of_a / sum, of_b / sum, of_c / sum}) <= 0.0) continue;
+      crossings.emplace_back((of_a * at[a].z() + of_b * at[b].z() + of_c * at[c].z()) / sum,
+                             sum > 0.0);
+    }
+  }
+  std::sort(crossings.rbegin(), crossings.rend());
+  bool inside = false;
+  for (const auto& [height, enters] : crossings) {
+    if (enters == inside) return true;
+    inside = enters;
+  }
+  return false;
+}
+
 std::vector<Indenter> Press::finger_at(const Vec3& place) const {
   std::vector<Indenter> moved = indenters_;
   for (Indenter& one : moved) one.pole += place;
@@ -363,6 +395,7 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
   const std::vector<double> half = contact_.half_depths(indenters);
   const std::span<const double> none;
   near_ = false;
+  walls_meet_ = false;
   for (int i = 0; i < most_steps; ++i) {
     const double least = elements_.assemble(u, force, stiffness_);
     if (!(least > -1.0)) return std::nullopt;
@@ -380,6 +413,9 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     if (i == 0 || most > last_step * body_.travel) continue;
     const double folded = elements_.assemble(u, force, stiffness_);
     if (!(folded > 0.0)) return std::nullopt;
+    walls_meet_ = std::any_of(indenters.begin(), indenters.end(),
+                              [&](const Indenter& one) { return walls_cross(u, one.pole); });
+    if (walls_meet_) return std::nullopt;
     contact_.add(u, indenters, none, force, stiffness_, met);
     Answer answer;
     double work = 0.0;

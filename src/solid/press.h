@@ -149,10 +149,13 @@ class Press {
   // positive definite: for walls that buckle.
   void solve_by_factors() { by_factors_ = true; }
 
-  // Moves the finger's point to `finger` (m). Nothing if no equilibrium is found on the way; the
-  // state is then that of reached(). Throws Stopped when asked to stop.
+  // Moves the finger's point to `finger` (m). Nothing if no equilibrium is found on the way, or if
+  // walls of a hollow would pass through each other there; the state is then that of reached().
+  // Throws Stopped when asked to stop.
   [[nodiscard]] std::optional<Answer> go(const Vec3& finger);
   [[nodiscard]] const Vec3& reached() const { return now_.finger; }
+  // Whether the last go() ended because walls of a hollow under the finger meet.
+  [[nodiscard]] bool walls_meet() const { return walls_meet_; }
 
   // The displacement (m) with the finger's point at `finger` (m); nothing without an equilibrium.
   // The state stays as it is, so that later answers do not depend on this.
@@ -174,6 +177,7 @@ class Press {
     std::vector<double> pressures;
   };
   [[nodiscard]] std::optional<Answer> settle(const Vec3& finger, bool extrapolate);
+  [[nodiscard]] bool walls_cross(const Vector& displacement, const Vec3& place) const;
   [[nodiscard]] bool factor();
   [[nodiscard]] bool solve(const Vector& right, Vector& x);
   [[nodiscard]] int images_of(const Vec3& pole) const;
@@ -188,6 +192,7 @@ class Press {
   bool has_before_ = false;
   int factorisations_ = 0;
   bool by_factors_ = false;
+  bool walls_meet_ = false;
   bool near_ = false;  // whether factors_ are those of a stiffness near the present one
   GradientVectors vectors_;
 };

@@ -101,16 +101,17 @@ int SurfaceNet::split(const Edge& edge, const Vec3& at) {
   return middle;
 }
 
+Vec3 SurfaceNet::twice_area(const std::array<int, 3>& triangle) const {
+  const auto& [a, b, c] = triangle;
+  return (vertices_[as_index(b)] - vertices_[as_index(a)])
+      .cross(vertices_[as_index(c)] - vertices_[as_index(a)]);
+}
+
 bool SurfaceNet::crease(const Edge& edge) const {
   const std::vector<int>& around = at_.at(edge);
   if (around.size() != 2 || numbers_[as_index(around[0])] != numbers_[as_index(around[1])])
     return true;
-  const auto normal = [&](int t) {
-    const auto& [a, b, c] = triangles_[as_index(t)];
-    return Vec3((vertices_[as_index(b)] - vertices_[as_index(a)])
-                    .cross(vertices_[as_index(c)] - vertices_[as_index(a)])
-                    .normalized());
-  };
+  const auto normal = [&](int t) { return twice_area(triangles_[as_index(t)]).normalized(); };
   return normal(around[0]).dot(normal(around[1])) < geometry::crease_cosine;
 }
 
@@ -300,11 +301,7 @@ void SurfaceNet::smooth(double share) {
       if (border) fixed[v] = 1;
     }
   }
-  const auto twice_area = [&](int t) {
-    const auto& [a, b, c] = triangles_[as_index(t)];
-    return Vec3((vertices_[as_index(b)] - vertices_[as_index(a)])
-                    .cross(vertices_[as_index(c)] - vertices_[as_index(a)]));
-  };
+  const auto own_area = [&](int t) { return twice_area(triangles_[as_index(t)]); };
   const auto needle = [&](int t) {
     constexpr double least = 0.1;  // of the sum of the squared edges; 0.577 for equal ones
     const auto& corners = triangles_[as_index(t)];
@@ -312,7 +309,7 @@ void SurfaceNet::smooth(double share) {
     for (std::size_t i = 0; i < 3; ++i)
       squares += (vertices_[as_index(corners[i])] - vertices_[as_index(corners[(i + 1) % 3])])
                      .squaredNorm();
-    return twice_area(t).norm() < least * squares;
+    return own_area(t).norm() < least * squares;
   };
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     if (fixed[v] != 0 || near[v].empty() || (!kept_.empty() && kept_[v] != 0)) continue;
@@ -330,12 +327,12 @@ void SurfaceNet::smooth(double share) {
     }
     if (leaves) continue;
     std::vector<Vec3> normals;
-    for (const int t : around[v]) normals.push_back(twice_area(t).normalized());
+    for (const int t : around[v]) normals.push_back(own_area(t).normalized());
     const int number = numbers_[as_index(*around[v].begin())];
     vertices_[v] = onto_(middle, {&number, 1});
     std::size_t i = 0;
     for (const int t : around[v])
-      if (twice_area(t).normalized().dot(normals[i++]) < 0.5 || needle(t)) {
+      if (own_area(t).normalized().dot(normals[i++]) < 0.5 || needle(t)) {
         vertices_[v] = before;
         break;
       }
@@ -381,15 +378,11 @@ void SurfaceNet::turn_edges() {
         if (first[i] == edge[1] && first[(i + 1) % 3] == edge[0]) way = {edge[1], edge[0]};
       const std::array<int, 3> one{way[0], tips[1], tips[0]};
       const std::array<int, 3> two{way[1], tips[0], tips[1]};
-      const auto normal = [&](const std::array<int, 3>& t) {
-        return Vec3((vertices_[as_index(t[1])] - vertices_[as_index(t[0])])
-                        .cross(vertices_[as_index(t[2])] - vertices_[as_index(t[0])]));
-      };
-      const Vec3 before = normal(triangles_[as_index(pair[0])]);
-      const Vec3 other = normal(triangles_[as_index(pair[1])]);
+      const Vec3 before = twice_area(triangles_[as_index(pair[0])]);
+      const Vec3 other = twice_area(triangles_[as_index(pair[1])]);
       const Vec3 mean = before.normalized() + other.normalized();
       const double least = 0.05 * std::min(before.norm(), other.norm());
-      if (normal(one).dot(mean) < least || normal(two).dot(mean) < least) continue;
+      if (twice_area(one).dot(mean) < least || twice_area(two).dot(mean) < least) continue;
       for (const int t : pair) disconnect(t);
       triangles_[as_index(pair[0])] = one;
       triangles_[as_index(pair[1])] = two;

@@ -79,6 +79,7 @@ class SurfaceNet {
   void smooth(double share);
   void without_crossings(std::optional<int> whole, const std::function<void(SurfaceNet&)>& step);
   [[nodiscard]] bool crease(const Edge& edge) const;
+  [[nodiscard]] Vec3 twice_area(const std::array<int, 3>& triangle) const;  // m^2, outwards
 
   std::vector<Vec3> vertices_;
   std::vector<std::array<int, 3>> triangles_;

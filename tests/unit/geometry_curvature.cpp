@@ -222,16 +222,29 @@ TEST(Curvature, FollowsADeformedSurface) {
   }
 }
 
+// The sides of a block of twelve triangles, whose corners have two or three neighbours.
+TEST(Curvature, OfAPlaneNeedsNoNeighbours) {
+  const Surface block = box_surface({0.06, 0.05, 0.03}, {1, 1, 1});
+  for (int t = 0; t < 12; ++t) {
+    const CurvatureEstimate found = between(stars(block).at_corners(block, t), {0.2, 0.3, 0.5});
+    EXPECT_EQ(found.status, StarStatus::full);
+    EXPECT_EQ(found.curvature.kappa_1, 0.0);
+    EXPECT_EQ(found.curvature.kappa_2, 0.0);
+    EXPECT_NEAR(found.curvature.normal.dot(twice_area(block, t).normalized()), 1.0, 1e-12);
+  }
+}
+
 TEST(Curvature, RefusesWithAReason) {
-  const Surface one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}}, {{0, 1, 2}}};
-  EXPECT_EQ(stars(one).at_vertex(one, 0).status, StarStatus::too_few);
-  EXPECT_EQ(stars(one).at_vertex(one, 3).status, StarStatus::too_few) << "no triangle at all";
-  EXPECT_EQ(between(stars(one).at_corners(one, 0), {1.0, 0.0, 0.0}).status, StarStatus::too_few);
+  const Surface two{{{0, 0, 0}, {1, 0, 0.1}, {1, 1, 0}, {0, 1, 0}, {5, 5, 5}},
+                    {{0, 1, 2}, {0, 2, 3}}};
+  EXPECT_EQ(stars(two).at_vertex(two, 0).status, StarStatus::too_few);
+  EXPECT_EQ(stars(two).at_vertex(two, 4).status, StarStatus::too_few) << "no triangle at all";
+  EXPECT_EQ(between(stars(two).at_corners(two, 0), {1.0, 0.0, 0.0}).status, StarStatus::too_few);
 
   // A band one cell wide: its two lines of vertices cannot tell how it bends across.
   const Surface band = test::split_quads({.cells = {9, 1}, .wraps = {false, false}, .jitter = 0.0},
                                          [](double u, double v) -> Vec3 {
-                                           return {9.0 * u, v, 0.0};
+                                           return {9.0 * u, v, u * u};
                                          });
   EXPECT_EQ(stars(band, {.rings = 3}).at_vertex(band, 5).status, StarStatus::degenerate);
 

@@ -277,10 +277,20 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
            regions + "; a finer mesh keeps the shape";
   };
   const std::string both = ", region 0 the same, region `lump` 33 % more";
-  EXPECT_EQ(read_mesh(written("q.msh", gmsh({0, 1})), 1.0).warning, sentence("q.msh", both));
-  EXPECT_EQ(read_mesh(written("q.inp", abaqus_text), 1.0).warning, sentence("q.inp", both));
-  EXPECT_EQ(read_mesh(written("q.vtk", vtk_text), 1.0).warning, sentence("q.vtk", ""));
-  EXPECT_EQ(read_mesh(written("straight.msh", gmsh({1})), 1.0).warning, "");
+  const NamedMesh read = read_mesh(written("q.msh", gmsh({0, 1})), 1e-3);
+  EXPECT_EQ(read.straightened, sentence("q.msh", both));
+  EXPECT_EQ(read_mesh(written("q.inp", abaqus_text), 1.0).straightened, sentence("q.inp", both));
+  EXPECT_EQ(read_mesh(written("q.vtk", vtk_text), 1.0).straightened, sentence("q.vtk", ""));
+  const NamedMesh straight = read_mesh(written("straight.msh", gmsh({1})), 1.0);
+  EXPECT_EQ(straight.straightened, "");
+  EXPECT_TRUE(straight.middles.empty());
+  // Of the three edges from the origin and the three between the others, one lies along x and two
+  // end at its end; their middles are those of the map.
+  ASSERT_EQ(read.middles.size(), 3U);
+  EXPECT_EQ(read.middles.at({0, 1}), 1e-3 * Vec3(0.75, 0.0, 0.0));
+  EXPECT_EQ(read.middles.at({1, 2}), 1e-3 * Vec3(0.75, 0.5, 0.0));
+  EXPECT_EQ(read.middles.at({1, 3}), 1e-3 * Vec3(0.75, 0.0, 0.5));
+  EXPECT_EQ(read.warning, "");
 }
 
 TEST_F(CellFiles, groups_have_names) {

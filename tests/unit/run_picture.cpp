@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
+#include "geometry/shape_loops.h"
+#include "meshing/surface_files.h"
 #include "revolved_bodies.h"
 #include "scene_text.h"
 
@@ -76,6 +79,32 @@ TEST(Picture, BetweenPlatesThereIsALoadAndNoFinger) {
   EXPECT_EQ(load("kind = \"creep\"\nstress = \"2 kPa\"\n"), "2 kPa");
   EXPECT_EQ(load("kind = \"relax\"\nstrain = 0.04\n"), "a strain of 4 %");
   EXPECT_EQ(load("kind = \"compress\"\nstrain = 0.2\n"), "a strain of 20 %");
+}
+
+// Of a ball with more triangles than a picture has: the border of the base is a circle.
+TEST(Picture, TheBorderOfTheBaseStaysWhereItIs) {
+  const test::TemporaryFolder folder;
+  const geometry::Surface ball =
+      geometry::ellipsoid_surface(Vec3::Constant(30.0), Vec3::Constant(60.0), 1.5);
+  EXPECT_GT(ball.triangles.size(), 6000U);
+  meshing::write_surface(folder / "ball.off", ball, 1.0);
+  const record::ScenePicture picture = picture_of(test::scene_of(
+      "[tissue]\nshape = { file = \"" + (folder / "ball.off").string() +
+      "\", unit = \"mm\" }\n[solver]\nmodel = \"solid\"\n[[step]]\nkind = \"indent\"\n"));
+  EXPECT_LT(picture.faces.size(), 6001U);
+  std::array<std::set<std::array<double, 3>>, 2> corners;
+  for (const Face& face : picture.faces)
+    for (const Vec3& corner : face.corners)
+      corners[face.held ? 1 : 0].insert({corner.x(), corner.y(), corner.z()});
+  int border = 0;
+  for (const auto& [x, y, z] : corners[1]) {
+    if (!corners[0].contains({x, y, z})) continue;
+    ++border;
+    EXPECT_NEAR(z, 6e-3, 1e-6);
+    EXPECT_NEAR((Vec3(x, y, z) - Vec3::Constant(30e-3)).norm(), 30e-3,
+                0.03e-3);  // chords of 1.5 mm
+  }
+  EXPECT_GT(border, 40);
 }
 
 TEST(Picture, ALayerEndsAtItsHeight) {

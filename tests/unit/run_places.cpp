@@ -39,7 +39,7 @@ std::string refusal_of(const std::string& text) {
 }
 
 TEST(Places, a_box_has_no_rounding_for_zero) {
-  EXPECT_EQ((Box{Vec3(-1.3e-18, -0.02, 0.0), Vec3(0.06, 1.3e-18, 0.03)}.text()),
+  EXPECT_EQ(box_text({Vec3(-1.3e-18, -0.02, 0.0), Vec3(0.06, 1.3e-18, 0.03)}),
             "x 0 to 60, y -20 to 0, z 0 to 30 mm");
 }
 
@@ -242,9 +242,39 @@ TEST_F(PlacedBody, a_finger_without_a_place_presses_a_ring_on_its_top) {
   EXPECT_TRUE(small.finger.moved);
   const double x = std::abs(small.finger.x.value()), y = std::abs(small.finger.y.value());
   EXPECT_TRUE(std::max(x, y) > 0.010 && std::max(x, y) < 0.030) << x << " " << y;
-  // A large one rests on the edges of the hole, and one with a place keeps it.
-  EXPECT_FALSE(placed("", "[finger]\nradius = \"25 mm\"\n").finger.moved);
+  // In the middle of a corner of the top, as far as can be from the two sides and from the hole's
+  // corner: 30 - x = sqrt(2) (x - 10).
+  const double best = 1e-3 * (30.0 + std::sqrt(2.0) * 10.0) / (1.0 + std::sqrt(2.0));
+  EXPECT_NEAR(x, best, 1e-3);  // places are some tenths of a millimetre apart
+  EXPECT_NEAR(y, best, 1e-3);
+  // A large one would rest on the edges of the hole, and one with a place keeps it.
+  EXPECT_TRUE(placed("", "[finger]\nradius = \"25 mm\"\n").finger.moved);
   EXPECT_FALSE(placed("", "[finger]\nx = \"20 mm\"\n").finger.moved);
+}
+
+// 20 mm wide and 30 mm high, with a hollow of 8 mm and 10 mm depth in its top.
+TEST_F(PlacedBody, a_finger_without_a_place_presses_no_rim) {
+  geometry::Surface post;
+  for (const auto& [half, z] : {std::pair(10.0, 0.0), {10.0, 30.0}, {4.0, 30.0}, {4.0, 20.0}})
+    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+      post.vertices.emplace_back(half * x, half * y, z);
+  const auto side = [&](int a, int b, int c, int d) {
+    post.triangles.push_back({a, b, c});
+    post.triangles.push_back({a, c, d});
+  };
+  side(3, 2, 1, 0);
+  side(12, 13, 14, 15);
+  for (int ring = 0; ring < 3; ++ring)
+    for (int i = 0; i < 4; ++i) {
+      const int a = 4 * ring + i, b = 4 * ring + (i + 1) % 4;
+      side(a, b, b + 4, a + 4);
+    }
+  meshing::write_surface(folder_ + "/box.off", post, 1.0);
+  const scenario::Resolved large = placed("", "[finger]\nradius = \"6 mm\"\n");
+  EXPECT_TRUE(large.finger.moved);
+  EXPECT_GT(std::max(std::abs(*large.finger.x), std::abs(*large.finger.y)), 0.006);
+  // A small one fits into the hollow, and presses its floor.
+  EXPECT_FALSE(placed("", "[finger]\nradius = \"2 mm\"\n").finger.moved);
 }
 
 TEST_F(PlacedBody, a_place_is_taken_to_the_surface_and_pressed_along_its_normal) {

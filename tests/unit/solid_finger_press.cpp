@@ -12,6 +12,7 @@
 
 #include "contact/elliptic.h"
 #include "contact/hertz.h"
+#include "geometry/cuboid.h"
 
 namespace palpate::solid {
 namespace {
@@ -228,6 +229,34 @@ TEST(FingerPress, AForceThatRisesSuddenlyIsThatOfAWallThatBuckled) {
   FingerPress press(on_cap(shell, 12e-3, 12e-3, 5.0));
   ASSERT_TRUE(press.at_travel(12e-3));
   EXPECT_TRUE(press.buckles());
+}
+
+// A block of 20 mm with a hollow of 12 x 12 x 2 mm, 3 mm below its top: the wall over it bends down
+// until it meets the floor.
+TEST(FingerPress, EndsWhereTheWallsOfAHollowMeet) {
+  geometry::Surface block = geometry::box_surface({0.02, 0.02, 0.012}, {8, 8, 5});
+  const geometry::Surface hollow = geometry::box_surface({0.012, 0.012, 0.002}, {6, 6, 1});
+  const int before = static_cast<int>(block.vertices.size());
+  for (const Vec3& vertex : hollow.vertices)
+    block.vertices.push_back(vertex + Vec3(0.004, 0.004, 0.007));
+  for (const auto& [a, b, c] : hollow.triangles)
+    block.triangles.push_back({before + a, before + c, before + b});
+  const geometry::SmoothSurface surface(block);
+  FingerOrder order;
+  order.body.surface = &surface;
+  order.body.tissues = {{10e3, 0.4}};
+  order.body.mirrored = {true, true};
+  order.radius = 3e-3;
+  order.deepest = 4e-3;
+  touch(order, Vec3(0.01, 0.01, 0.012));
+  FingerPress press(order);
+  const auto near = press.at_travel(1.5e-3);  // the wall sinks less than the finger
+  ASSERT_TRUE(near) << press.reason();
+  EXPECT_GT(near->force, 0.0);
+  EXPECT_FALSE(press.at_travel(4e-3));
+  EXPECT_NE(press.reason().find("the walls of the hollow under the finger meet beyond"),
+            std::string::npos)
+      << press.reason();
 }
 
 // Pressed by half its radius, a ball of 2 MPa on a soft block still is a rigid one.

@@ -93,6 +93,30 @@ TEST(SurfaceNet, EndsWhereTheTrueSurfaceIsElsewhere) {
   EXPECT_THROW(fine.refine([](const Vec3&) { return 1e-3; }), MeshError);
 }
 
+// A tetrahedron of a file whose outer edges bulge: its halves have the same shape.
+TEST(SolidMesher, KeepsTheMiddlesOfAFile) {
+  const geometry::TetMesh file{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)},
+                               {{0, 1, 2, 3}}};
+  geometry::EdgeMiddles middles;
+  for (const auto& [a, b] : {std::array{1, 2}, {1, 3}, {2, 3}})
+    middles[{a, b}] = 0.575 * (file.nodes[std::size_t(a)] + file.nodes[std::size_t(b)]);
+  // Jacobians are polynomials of the third degree, which four points integrate to the second.
+  const auto volume = [&](double size, bool curved) {
+    MeshOrder order;
+    order.mesh = &file;
+    if (curved) order.middles = &middles;
+    order.sizes.largest = size;
+    return volumes(mesh_for(order))[0];
+  };
+  const double whole = volume(10.0, true);
+  EXPECT_NEAR(volume(10.0, false), 1.0 / 6.0, 1e-12);
+  EXPECT_GT(whole, 1.2 / 6.0);
+  for (const double size : {0.4, 0.2}) {
+    EXPECT_NEAR(volume(size, true), whole, 0.01 * whole) << size;
+    EXPECT_NEAR(volume(size, false), 1.0 / 6.0, 1e-12) << size;
+  }
+}
+
 // "Skin over fat with a sphere": a later region replaces an earlier one, also where a slab
 // cuts it.
 TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
