@@ -68,7 +68,7 @@ struct FingerOrder {
   double deepest = 0.0;  // m, travel of the finger
   Touch touch;
   std::array<double, 2> curvatures{};  // 1/m, of the body there along x and y, above 0 if convex
-  bool smooth = false;  // whether these are known, and a small contact of one sphere is Hertz's
+  bool smooth = false;    // whether these are known, and a small contact of one sphere is Hertz's
   bool in_steps = false;  // many points, as the wall under the finger may buckle between three
   // The touch with the finger at a place beside it (m); nothing where it passes beside the body.
   std::function<std::optional<Touch>(const Vec3& place)> beside = {};

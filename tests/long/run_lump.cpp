@@ -60,8 +60,9 @@ TEST(Lump, SpringsTakeTheModulusAroundThem) {
   const geometry::TetMesh& mesh = scene.specimen->mesh;
   for (const auto rule : {tissue::StiffnessRule::van_gelder, tissue::StiffnessRule::fitted}) {
     const auto stiffness = [&](const std::array<double, 2>& moduli) {
-      return rule == tissue::StiffnessRule::van_gelder ? tissue::van_gelder_stiffness(mesh, moduli)
-                                                       : tissue::fitted_stiffness(mesh, moduli);
+      return rule == tissue::StiffnessRule::van_gelder
+                 ? tissue::van_gelder_stiffness(mesh, moduli)
+                 : tissue::fitted_stiffness(mesh, tissue::fit_springs(mesh), moduli);
     };
     const auto soft = stiffness({1.0, 1.0});
     const auto mixed = stiffness({1.0, 50.0});
