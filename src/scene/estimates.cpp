@@ -46,11 +46,6 @@ double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration)
   return sum;
 }
 
-// Of shear waves, m/s.
-double shear_speed(const scenario::Resolved::Tissue& tissue) {
-  return std::sqrt(tissue.young_modulus / (2.0 * (1.0 + tissue.poisson_ratio) * tissue.density));
-}
-
 // The radiation of a vibrating footing (Lysmer's analogue), pi a^2 rho c v with
 // c = 3.4 v_s / (pi (1 - nu)), over Hertz's force.
 double inertia_effect(const scenario::Resolved::Tissue& tissue, const contact::SphereLaw& law,

@@ -40,6 +40,10 @@ double stability_limit(const scenario::Resolved& scenario, const Specimen& speci
   return limit_of_explicit_steps(scenario.solver, specimen.law, squared, contact);
 }
 
+double shear_speed(const scenario::Resolved::Tissue& tissue) {
+  return std::sqrt(tissue.young_modulus / (2.0 * (1.0 + tissue.poisson_ratio) * tissue.density));
+}
+
 TimePlan plan_time(const scenario::Resolved& scenario, const Specimen& specimen,
                    const ContactRate& contact) {
   using Integrator = scenario::Solver::Integrator;
@@ -65,6 +69,14 @@ TimePlan plan_time(const scenario::Resolved& scenario, const Specimen& specimen,
   } else if (solver.integrator == Integrator::tr_bdf2 && specimen.law.shortest_time() > 0.0) {
     // The error of TR-BDF2 is about 0.04 x^2 e^-1 then.
     wanted = specimen.law.shortest_time() / 5.0;
+  } else if (solver.integrator == Integrator::modal && inertia_reaches_force(scenario)) {
+    // The load of a step is constant: steps as long as the period of a low mode would excite it,
+    // again and again. A quarter of the way of a shear wave through the body is far below that.
+    constexpr double frame = 1e-3;  // s, however stiff the tissue
+    const auto [lowest, highest] =
+        std::minmax_element(specimen.mesh.nodes.begin(), specimen.mesh.nodes.end(),
+                            [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    wanted = std::max(frame, 0.25 * (highest->z() - lowest->z()) / shear_speed(scenario.tissue));
   }
   const double enough = std::max(1.0, std::ceil(plan.time_step / wanted));
   plan.substeps = solver.substeps.value_or(static_cast<int>(std::min(enough, 1e9)));

@@ -23,6 +23,8 @@ struct ContactRate {
 [[nodiscard]] double stability_limit(const scenario::Resolved& scenario, const Specimen& specimen,
                                      const ContactRate& contact);
 
+[[nodiscard]] double shear_speed(const scenario::Resolved::Tissue& tissue);  // m/s, of its waves
+
 struct TimePlan {
   ContactRate contact;
   std::optional<double> limit;  // s, of the stability of the chosen method, if that is explicit
@@ -35,7 +37,8 @@ struct TimePlan {
 
 // Substeps of a time step: for explicit methods as many as keep it below 0.9 of the stability
 // limit; for implicit Euler and TR-BDF2 as many as keep its error below 1 % after one viscous time;
-// else one. `solver.substeps` overrides this.                           docs/theory.md [limit]
+// for `modal` as many as do not excite a low mode, in steps of 1 ms at least; else one.
+// `solver.substeps` overrides this.                           docs/theory.md [limit]
 [[nodiscard]] TimePlan plan_time(const scenario::Resolved& scenario, const Specimen& specimen,
                                  const ContactRate& contact);
 

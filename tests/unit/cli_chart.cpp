@@ -58,7 +58,7 @@ TEST_F(ChartVerb, AUniformTestIsCharted) {
             std::vector<std::string>{});
   EXPECT_NE(headline_of(folder_ / "out/small_chart/report.html").find("the cheapest within"),
             std::string::npos);
-  EXPECT_TRUE(headline_of(folder_ / "out/small_chart/report.html").find("springs") !=
+  EXPECT_TRUE(headline_of(folder_ / "out/small_chart/report.html").find("mass_spring") !=
               std::string::npos)
       << headline_of(folder_ / "out/small_chart/report.html");
   const std::string page = read_file(folder_ / "out/small_chart/report.html");
