@@ -42,16 +42,17 @@ using Faces = solid::FingerPress::OuterSurface;
 
 // Every face of the solid as four triangles.
 Displaced displaced(const Faces& faces) {
-  constexpr std::array<std::array<int, 3>, 4> parts{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
   Displaced found;
   for (std::size_t f = 0; f < faces.faces.size(); ++f) {
-    const auto first = static_cast<int>(found.rest.vertices.size());
+    const std::size_t first = found.rest.vertices.size();
     for (std::size_t i = 0; i < 6; ++i) {
       found.displacement.push_back(faces.displacements[f][i]);
       found.rest.vertices.push_back(faces.faces[f][i] - faces.displacements[f][i]);
     }
-    for (const auto& [a, b, c] : parts)
-      found.rest.triangles.push_back({first + a, first + b, first + c});
+    for (const auto& part : solid::face_parts) {
+      auto& triangle = found.rest.triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) triangle[i] = static_cast<int>(first + part[i]);
+    }
   }
   return found;
 }

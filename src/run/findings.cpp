@@ -58,12 +58,13 @@ std::optional<double> force_at_indentation(const scenario::PlainScenario& scenar
 std::optional<double> creep_half_time(const record::CaseRecord& record, double elastic_strain) {
   const auto first = std::find_if(record.strain.begin(), record.strain.end(),
                                   [](const auto& row) { return row.stress > 0.0; });
+  constexpr double rounding = 1e-12;
+  const double half = 0.5 * elastic_strain;
   std::optional<Point> before;
   for (auto row = first; row != record.strain.end(); ++row) {
     if (row->step != first->step || row->stress <= 0.0) break;
     const Point here{row->time - first->time, row->strain};
-    if (here.y >= 0.5 * elastic_strain)
-      return before ? crossing(*before, here, 0.5 * elastic_strain) : 0.0;
+    if (here.y >= (1.0 - rounding) * half) return before ? crossing(*before, here, half) : 0.0;
     before = here;
   }
   return std::nullopt;

@@ -369,8 +369,6 @@ record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surfa
   // the points at which the penalty acts the faces may part from the finger by some ten-thousandths
   // of its radius.
   constexpr double closed = 3e-4;
-  constexpr std::array<std::array<std::size_t, 3>, 4> parts{
-      {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
   constexpr std::array<std::array<double, 3>, 6> nodes{
       {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}};
   const auto draw_part = [&](std::size_t face, const std::array<std::size_t, 3>& part) {
@@ -409,7 +407,7 @@ record::PressureMap draw_map(const solid::FingerPress::OuterSurface& outer_surfa
     });
   };
   for (std::size_t face = 0; face < outer_surface.faces.size(); ++face)
-    for (const auto& part : parts) draw_part(face, part);
+    for (const auto& part : solid::face_parts) draw_part(face, part);
   double integral = 0.0;
   for (const double sum : sums) integral += sum * map.pitch * map.pitch;
   const double scale = integral > 0.0 ? force / integral : 0.0;

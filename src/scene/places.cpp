@@ -258,7 +258,7 @@ struct Top {
 
 Top top_of(const geometry::Surface& body) {
   const Box box = box_of(body.vertices);
-  const double rounding = 1e-6 * (box.high - box.low).norm();
+  const double rounding = 1e-6 * box.diagonal();
   std::vector<int> flat;
   int highest = 0;
   double height = -HUGE_VAL;

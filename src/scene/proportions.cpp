@@ -64,10 +64,12 @@ void refuse_through(const scenario::Resolved& scenario, const SurfaceTouch& touc
       place_of(family.document, "step." + std::to_string(step) + ".to"),
       "`to` of " + quantity_text(to, unit::mm) +
           (std::isfinite(touch.to_base)
-               ? (touch.tissue_to_base < touch.to_base
-                      ? " presses through the hollow body, which is "
-                      : " presses through the tissue, which is ") +
-                     mm_text(touch.to_base) + " thick between the finger and what holds it"
+               ? (estimates.tissue_share * to < touch.to_base
+                      ? " takes more than " + percent_text(through) + " of the "
+                      : std::string(" presses through the ")) +
+                     (touch.tissue_to_base < touch.to_base ? "hollow body" : "tissue") +
+                     ", which is " + mm_text(touch.to_base) +
+                     " thick between the finger and what holds it"
                : " is more than the length of the body, which is " + size_text(touch)) +
           "; press less deep, or check the size of the body" + unit_text(scenario, touch));
 }

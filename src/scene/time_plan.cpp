@@ -73,10 +73,8 @@ TimePlan plan_time(const scenario::Resolved& scenario, const Specimen& specimen,
     // The load of a step is constant: steps as long as the period of a low mode would excite it,
     // again and again. A quarter of the way of a shear wave through the body is far below that.
     constexpr double frame = 1e-3;  // s, however stiff the tissue
-    const auto [lowest, highest] =
-        std::minmax_element(specimen.mesh.nodes.begin(), specimen.mesh.nodes.end(),
-                            [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
-    wanted = std::max(frame, 0.25 * (highest->z() - lowest->z()) / shear_speed(scenario.tissue));
+    const double height = specimen.high.z() - specimen.low.z();
+    wanted = std::max(frame, 0.25 * height / shear_speed(scenario.tissue));
   }
   const double enough = std::max(1.0, std::ceil(plan.time_step / wanted));
   plan.substeps = solver.substeps.value_or(static_cast<int>(std::min(enough, 1e9)));

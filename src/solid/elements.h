@@ -48,7 +48,10 @@ struct Functions {
 
 // Values of the six functions of a face at barycentric coordinates of its corners.
 [[nodiscard]] std::array<double, 6> face_values(const std::array<double, 3>& corners);
-// Of the functions that are linear in each of the four parts of a face that its middles make.
+// The four parts of a face that its middles make, by its nodes.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> face_parts{
+    {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+// Of the functions that are linear in each of these parts.
 [[nodiscard]] std::array<double, 6> part_values(const std::array<double, 3>& corners);
 
 // The four integration points of an element, each with the weight 1/24.

@@ -340,7 +340,6 @@ int Press::images_of(const Vec3& pole) const {
 // Whether the vertical line through a place leaves the displaced body where it is outside already,
 // or enters it where it is inside.
 bool Press::walls_cross(const Vector& displacement, const Vec3& place) const {
-  constexpr std::size_t parts[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
   // Beside the edges that lie on mirrors.
   const Vec3 line = place + body_.size * Vec3(0.0131, 0.0073, 0.0);
   std::vector<std::pair<double, bool>> crossings;  // height, and whether it enters from above
@@ -349,7 +348,7 @@ bool Press::walls_cross(const Vector& displacement, const Vec3& place) const {
     for (std::size_t i = 0; i < 6; ++i)
       at[i] = body_.mesh.nodes[as_index(face.nodes[i])] +
               displacement.segment<3>(3 * face.nodes[i]) - line;
-    for (const auto& [a, b, c] : parts) {
+    for (const auto& [a, b, c] : face_parts) {
       const auto twice = [&](std::size_t from, std::size_t to) {
         return at[from].x() * at[to].y() - at[from].y() * at[to].x();
       };

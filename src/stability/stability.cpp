@@ -282,9 +282,8 @@ std::string unstepped(const scenario::Case& one, scene::SpecimenShapes& shapes) 
   return std::string("Nothing is stepped in time here: `") + model.word +
          (model.meshed() ? std::string("` with `") + about(solver.integrator).word
                          : std::string()) +
-         "` computes the force at rest" +
-         ", so that no step is too long; the limits are those of springs with inertia on this "
-         "body.";
+         "` computes the force at rest, so that no step is too long; the limits are those of "
+         "springs with inertia on this body.";
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ enum class StiffnessRule { van_gelder, fitted };
 // where C is the isotropic stiffness for E and nu = 1/4, the only ratio that central forces have. A
 // weak second term prefers Van Gelder's values where this leaves a choice. The fit is that of one
 // tissue: per sorted edge k_e l_e^2 over E, m^3, fitted and by Van Gelder. It is slow and serves
-// all tissues on a mesh.                                                       docs/theory.md
-// [fitted]
+// all tissues on a mesh.
+//                                                                       docs/theory.md [fitted]
 struct SpringFit {
   std::vector<double> fitted;
   std::vector<double> van_gelder;

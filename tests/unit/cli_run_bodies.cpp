@@ -113,10 +113,11 @@ TEST_F(RunBodies, a_press_out_of_proportion_is_refused_or_told) {
   };
   const Ended through = explained(column_24_mm, "", "22 mm");
   EXPECT_EQ(through.code, 2);
-  EXPECT_TRUE(says(through,
-                   "press.toml:3:6: `to` of 22 mm presses through the tissue, which is 24 mm thick "
-                   "between the finger and what holds it; press less deep, or check the size of "
-                   "the body and `unit` of `tissue.shape`: in `cm` it would be 0.24 m long"))
+  EXPECT_TRUE(
+      says(through,
+           "press.toml:3:6: `to` of 22 mm takes more than 90 % of the tissue, which is 24 mm "
+           "thick between the finger and what holds it; press less deep, or check the size of "
+           "the body and `unit` of `tissue.shape`: in `cm` it would be 0.24 m long"))
       << through.err;
   const Ended deep = explained(column_24_mm, "", "13 mm");
   EXPECT_EQ(deep.code, 0) << deep.err;

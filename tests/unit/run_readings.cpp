@@ -55,6 +55,8 @@ TEST(Readings, HalfTheCreepIsTimedFromTheLoadOfTheFirstTest) {
   EXPECT_EQ(creep_half_time({}, 0.1), std::nullopt);
   record.strain[1].strain = 0.05;  // more than half at once
   EXPECT_EQ(creep_half_time(record, 0.08), 0.0);
+  record.strain[1].strain = std::nextafter(0.04, 0.0);  // half, but for rounding
+  EXPECT_EQ(creep_half_time(record, 0.08), 0.0);
 }
 
 TEST(Readings, FindingsHaveTheForceOfHertzAtEveryIndentationThatIsAskedFor) {
