@@ -33,7 +33,9 @@ ContactInertia::ContactInertia(MovingPart& part)
     : statics(part, Response::moving_statics),
       response(part, Response::whole_step),
       part_(&part),
-      radiation_(scene::radiation_compliance(*part.scene)) {}
+      radiation_(scene::radiation_compliance(*part.scene)),
+      return_time_(2.0 * (part.scene->specimen->high - part.scene->specimen->low).z() /
+                   scene::shear_speed(part.scene->scenario.tissue)) {}
 
 void ContactInertia::make_room(std::size_t contacts) {
   const auto size = static_cast<Eigen::Index>(contacts);
@@ -140,7 +142,8 @@ double ContactInertia::part_of_motion(const KeptList<SphereContact>& contacts,
 }
 
 // Fills damping and delay of near_: the radiation of waves shorter than the wide patch by Lysmer's
-// analogue, without the part that the mesh radiates.                   docs/theory.md [radiation]
+// analogue, without the part that the mesh radiates or the support reflects.
+//                                                       docs/theory.md [radiation], [reflection]
 void ContactInertia::find_near_field(const Motion& motion, const KeptList<SphereContact>& contacts,
                                      const Eigen::MatrixXd& known, double part) {
   const auto count = static_cast<Eigen::Index>(contacts.size());
@@ -165,8 +168,11 @@ void ContactInertia::find_near_field(const Motion& motion, const KeptList<Sphere
       const double most = std::max(0.0, 0.5 * spare / others - 1.0) * motion.time_step / spare;
       damping = std::min(damping, most);
     }
-    near.damping = damping;
-    near.delay = damping / (stiffness * stiffness * still_by_force_(own, own));
+    const double delay = damping / (stiffness * stiffness * still_by_force_(own, own));
+    const double radiated = std::min(1.0, return_time_ / delay);
+    const double in_series = std::max(0.0, 1.0 + stiffness * std::min(0.0, known(own, own)));
+    near.damping = radiated * part * damping;
+    near.delay = radiated * in_series * delay;
   }
 }
 

@@ -80,6 +80,7 @@ class ContactInertia {
 
   const MovingPart* part_;
   double radiation_;          // m s/N, D of docs/theory.md [radiation]
+  double return_time_;        // s, of a shear wave through the body and back
   std::vector<int> pressed_;  // degrees of freedom under the wide patches
   // Only the leading entries, one per contact, are valid; the memory is kept between steps.
   Eigen::VectorXd motion_;            // m, `m` of docs/theory.md [inertia]
