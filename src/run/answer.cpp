@@ -29,9 +29,33 @@ const char* plain_word(Model model) {
   return "";
 }
 
-std::string would_change(double change) {
+std::string would_change(double change, const std::string& of = "the force") {
   return std::string("which would ") + (change < 0.0 ? "take " : "add ") +
-         percent_text(std::abs(change)) + (change < 0.0 ? " off" : " to") + " the force";
+         percent_text(std::abs(change)) + (change < 0.0 ? " off " : " to ") + of;
+}
+
+// What a uniform test prescribes: the strain, or what the stress strains at last.
+double uniform_strain(const scenario::Resolved& scenario) {
+  const scenario::Step& step = scenario.steps.front();
+  if (const auto* creep = std::get_if<scenario::Creep>(&step))
+    return creep->stress / scenario.tissue.young_modulus;
+  if (const auto* relax = std::get_if<scenario::Relax>(&step)) return relax->strain;
+  return std::get<scenario::Compress>(step).strain;
+}
+
+// Stress over E of an incompressible neo-Hookean solid.                docs/theory.md [stretch]
+double neo_hookean_stress(double strain) {
+  const double stretch = 1.0 - strain;
+  return (1.0 / (stretch * stretch) - stretch) / 3.0;
+}
+
+double neo_hookean_strain(double stress_over_modulus) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (neo_hookean_stress(middle) < stress_over_modulus ? low : high) = middle;
+  }
+  return low;
 }
 
 class Words {
@@ -87,7 +111,9 @@ class Words {
 
   // What the model leaves out, the largest first.
   std::vector<Neglected> all_neglected() {
-    if (!scene_.scenario.uniform()) {
+    if (scene_.scenario.uniform()) {
+      large_uniform_strain();
+    } else {
       size();
       edge();
       ball();
@@ -249,6 +275,19 @@ class Words {
       remedy = (waves_matter() ? remedy : "set `solver.model = \"solid\"`") +
                " and remove `contact.coupling`";
     omit("large strains", e_.deep, would_change(e_.deep) + " where it is deepest", remedy);
+  }
+
+  void large_uniform_strain() {
+    if (scene_.scenario.solver.kinematics != scenario::Solver::Kinematics::linear) return;
+    const double strain = uniform_strain(scene_.scenario);
+    const bool creeps = std::holds_alternative<scenario::Creep>(scene_.scenario.steps.front());
+    const double change =
+        (creeps ? neo_hookean_strain(strain) : neo_hookean_stress(strain)) / strain - 1.0;
+    if (std::abs(change) < 0.2 * tolerance()) return;
+    omit("large strains", change,
+         would_change(change, creeps ? "the strain" : "the stress") +
+             " of incompressible neo-Hookean tissue",
+         creeps ? "take a smaller stress" : "take a smaller strain", "large strains");
   }
 
   void viscosity() {

@@ -62,7 +62,8 @@ TEST(Inertia, APillarSwingsAsInAnotherProgram) {
         << moving[2 * i + 4].time << " s";  // 0.6 % of the greatest force
 }
 
-// The wide patch is wider than this layer is thick: its waves come back in 5 ms, of a press of 50 ms.
+// The wide patch is wider than this layer is thick: its waves come back in 5 ms, of a press of 50
+// ms.
 TEST(Inertia, ASlowPressOnAThinLayerIsThatAtRest) {
   const auto forces = [](const char* integrator) {
     return test::run_text(

@@ -78,7 +78,7 @@ const std::vector<Scene>& scenes() {
        "= 400 }\n[finger]\nx = \"0 mm\"\ny = \"0 mm\"\n" +
            press,
        "solid", "viscosity, which would add "},
-      {"creep", lasting + "[[step]]\nkind = \"creep\"\n", "mass_spring", "nothing"},
+      {"creep", lasting + "[[step]]\nkind = \"creep\"\n", "mass_spring", "large strains, "},
       {"relax", "[[step]]\nkind = \"relax\"\n", "mass_spring", ""},
       {"deep",
        "[tissue]\npoisson_ratio = 0.49\nviscosity = \"none\"\n[contact]\ndepth = \"hertz\"\n"
@@ -132,6 +132,31 @@ TEST_P(Answers, start_with_three_plain_sentences) {
 INSTANTIATE_TEST_SUITE_P(of, Answers, testing::ValuesIn(scenes()),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
+// An incompressible neo-Hookean solid of the stretch L has the nominal stress E/3 (L - L^-2): 11.5
+// % more than E e at the shortening 0.1, and the shortening 0.0907 at the stress E/10.
+TEST(Explain, SaysWhatLargeStrainsChangeOfUniformTests) {
+  const TemporaryFolder folder;
+  const auto explained = [&](const std::string& step) {
+    write_file(folder / "test.toml", "[tissue]\nyoung_modulus = \"10 kPa\"\n[[step]]\n" + step);
+    return palpate(folder.path(), {"explain", "test.toml"}).out;
+  };
+  const auto told = [](const std::string& change) {
+    return "Neglected: large strains, which would " + change + " of incompressible neo-Hookean ";
+  };
+  const auto says = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  const std::string compressed = explained("kind = \"compress\"\nstrain = 0.1\n");
+  EXPECT_TRUE(says(compressed, told("add 12 % to the stress"))) << compressed;
+  EXPECT_TRUE(says(compressed, "(tolerance 5 %), not counting large strains.")) << compressed;
+  const std::string relaxed = explained("kind = \"relax\"\nstrain = 0.4\n");
+  EXPECT_TRUE(says(relaxed, told("add 81 % to the stress"))) << relaxed;
+  const std::string crept = explained("kind = \"creep\"\nstress = \"1 kPa\"\n");
+  EXPECT_TRUE(says(crept, told("take 9.3 % off the strain"))) << crept;
+  const std::string small = explained("kind = \"compress\"\nstrain = 0.005\n");
+  EXPECT_TRUE(says(small, "Neglected: nothing ")) << small;
+}
+
 // Every heading with a table, every key and every word that a table of the manual begins with.
 // With `one_way` every model has the force of a half-space, however thin the tissue.
 TEST(Explain, SaysThatTheCouplingKeepsModelsAway) {
@@ -147,6 +172,12 @@ TEST(Explain, SaysThatTheCouplingKeepsModelsAway) {
                      "nearer)"),
       std::string::npos)
       << ended.out;
+  // A formula does not read the coupling.
+  const Ended layer =
+      palpate(folder.path(), {"explain", "thin.toml", "--set", "solver.model=layer"});
+  ASSERT_EQ(layer.code, 0) << layer.err;
+  EXPECT_EQ(layer.out.find("one_way"), std::string::npos) << layer.out;
+  EXPECT_EQ(layer.out.find("Neglected: the size"), std::string::npos) << layer.out;
 }
 
 // `solid` has no inertia: the remedy of a fast press is a model that has, and no other remedy takes
