@@ -67,22 +67,22 @@ TEST(Inertia, APillarSwingsAsInAnotherProgram) {
 TEST(Inertia, ASlowPressOnAThinLayerIsThatAtRest) {
   const auto forces = [](const char* integrator) {
     return test::run_text(
-               "[tissue]\nviscosity = \"none\"\nshape = { kind = \"cuboid\", size = [\"60 mm\", "
-               "\"60 mm\", \"5 mm\"] }\nmesh = { kind = \"tetgen\", nodes = 500 }\n[finger]\n"
-               "material = \"rigid\"\nradius = \"100 mm\"\n[solver]\nmodel = "
-               "\"coupled_springs\"\n[output]\ninterval = \"5 ms\"\npressure_maps = false\n"
-               "[[step]]\nkind = \"indent\"\nto = \"0.1 mm\"\nrate = \"2 mm/s\"\n",
+               "[tissue]\nviscosity = \"none\"\npoisson_ratio = 0.45\nshape = { kind = "
+               "\"cuboid\", size = [\"60 mm\", \"60 mm\", \"5 mm\"] }\nmesh = { kind = "
+               "\"tetgen\", nodes = 500 }\n[finger]\nmaterial = \"rigid\"\nradius = \"100 "
+               "mm\"\n[solver]\nmodel = \"coupled_springs\"\n[output]\ninterval = \"5 ms\"\n"
+               "pressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"0.3 mm\"\nrate = "
+               "\"2 mm/s\"\n",
                {std::string("solver.integrator=") + integrator})
         .contact;
   };
   const auto still = forces("quasi_static");
-  for (const char* integrator : {"modal", "tr_bdf2"}) {
-    const auto moving = forces(integrator);
-    ASSERT_EQ(moving.size(), still.size());
-    for (std::size_t i = 5; i < still.size(); ++i)
-      EXPECT_NEAR(moving[i].force, still[i].force, 2e-3 * still[i].force)
-          << integrator << ", " << still[i].time << " s";
-  }
+  const auto moving = forces("modal");
+  ASSERT_EQ(moving.size(), still.size());
+  for (std::size_t i = 5; i < still.size(); ++i)
+    EXPECT_NEAR(moving[i].force, still[i].force, 3e-4 * still[i].force) << still[i].time << " s";
+  // The contact is so wide that no part of the mesh's motion counts, nor of the dashpot.
+  EXPECT_NEAR(moving.back().force, still.back().force, 1e-9 * still.back().force);
 }
 
 // Scenes 1, 12 and 0 of `tests/accuracy/fast_presses.py --seed 1`, and its forces in mN: the last
