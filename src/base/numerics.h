@@ -17,7 +17,8 @@ class Function {
  public:
   template <class Callable>
   requires(!std::is_same_v<std::remove_cvref_t<Callable>, Function>)
-      Function(Callable&& callable)  // NOLINT(google-explicit-constructor)
+      // NOLINTNEXTLINE(google-explicit-constructor, bugprone-forwarding-reference-overload)
+      Function(Callable&& callable)
       : of_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
         call_([](void* of, double x) -> Value {
           return (*static_cast<std::remove_reference_t<Callable>*>(of))(x);

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "base/vec3.h"
+#include "geometry/body.h"
 #include "geometry/box.h"
 #include "geometry/box_tree.h"
 #include "geometry/half_edges.h"
