@@ -142,7 +142,7 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
   const bool displaced = std::ranges::any_of(
       charts, [](const chart::CaseChart& one) { return !one.surface.pieces.empty(); });
   std::vector<std::string> results{"configuration",
-                                   "claimed_error",
+                                   "shown_error",
                                    "cost_us_per_ms",
                                    displaced ? "surface_error" : "total_s",
                                    "pareto",

@@ -368,7 +368,7 @@ constexpr std::size_t most_answers = 8;  // cases that the head of the page name
 std::string figure_words(const plot::Figure& figure) {
   std::string words = figure.y_label + " against " + within_sentence(figure.x_label);
   if (figure.series.size() > 1) words += ", " + std::to_string(figure.series.size()) + " curves";
-  if (figure.bar) words += "; the colour is " + figure.bar->label;
+  if (figure.bar) words += "; the colour is " + within_sentence(figure.bar->label);
   if (figure.y_axis == plot::Axis::logarithmic)
     words +=
         figure.x_axis == plot::Axis::logarithmic ? "; logarithmic scales" : "; logarithmic scale";
@@ -537,6 +537,19 @@ std::string finger_text(const scenario::Case& one) {
          " of radius " + rounded_text(unit::mm.from_si(finger.radius), 3) + " mm";
 }
 
+// ` at x 30, y 30, z 30 mm`: where the finger touches the surface first, in the scenario's
+// coordinates; nothing without a picture and on a half-space, which is the same everywhere.
+std::string place_text(const scenario::Case& one, const record::ScenePicture& picture) {
+  if (picture.finger.empty() ||
+      std::holds_alternative<scenario::HalfSpace>(one.scenario.tissue.shape))
+    return "";
+  const Vec3 place = picture.axes.transpose() * picture.touch;
+  const auto mm = [](double metres) {  // to a hundredth
+    return number_text(std::round(100.0 * unit::mm.from_si(metres)) / 100.0 + 0.0);
+  };
+  return " at x " + mm(place.x()) + ", y " + mm(place.y()) + ", z " + mm(place.z()) + " mm";
+}
+
 // The viscous law of a case between plates, for the model that ran.
 std::string viscosity_of(const scenario::Case& one, const record::CaseRecord& record) {
   const std::string model = finding_word(record, "model");
@@ -569,8 +582,8 @@ std::string loading_text(const scenario::Case& one) {
   return capitalized(text);
 }
 
-// What was tested, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a sphere of
-// radius 11 mm; underside fixed (bonded base).`
+// What was tested, where, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a
+// sphere of radius 11 mm at x 30, y 30, z 30 mm; underside fixed (bonded base).`
 std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
   const scenario::Tissue& tissue = one.scenario.tissue;
   std::string text = "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
@@ -582,7 +595,8 @@ std::string tested(const scenario::Case& one, const record::CaseRecord& record) 
     text += ", with " + count_text(regions, "region") + " of other tissue";
   const double depth = finding_number(record, "peak_travel_mm");
   if (std::isfinite(depth))
-    text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one);
+    text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one) +
+            place_text(one, record.picture);
   const std::string& side = tissue.base_side;
   if (!record.picture.base.empty())
     text += "; " + (side.empty() ? "underside" : "side " + side) + " " + record.picture.base;
@@ -606,15 +620,21 @@ record::Table case_table(const scenario::Family& family, const Records& records)
   return table;
 }
 
-// The finger of several cases, or the loading between plates, if it is the same in all.
-std::string common_loading(const scenario::Family& family) {
+// The finger of several cases with its place, or the loading between plates, where they are the
+// same in all.
+std::string common_loading(const scenario::Family& family, const Records& records) {
   const auto text_of = [&](const scenario::Case& one) {
     return family.base.uniform() ? loading_text(one) : "Pressed by " + finger_text(one);
   };
   const std::string text = text_of(family.cases.front());
   const bool same = std::all_of(family.cases.begin(), family.cases.end(),
                                 [&](const auto& one) { return text_of(one) == text; });
-  return same && !text.empty() ? text + "." : "";
+  if (!same || text.empty()) return "";
+  const std::vector<std::string>& keys = family.design.keys();
+  const bool one_place = std::none_of(keys.begin(), keys.end(), [](const std::string& key) {
+    return key.starts_with("finger.") || key.starts_with("tissue.shape");
+  });
+  return text + (one_place ? place_text(family.cases.front(), records.front().picture) : "") + ".";
 }
 
 // One case: the force, its error, the model, and what is neglected; several: a table of the same.
@@ -648,7 +668,7 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     for (const record::CaseRecord& record : records)
       if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
     page.answer(said_once(ends));
-    if (const std::string text = common_loading(family); !text.empty()) page.answer({text});
+    if (const std::string text = common_loading(family, records); !text.empty()) page.answer({text});
     if (records.size() <= most_answers)
       page.answer(element("div", page::table("Every case", case_table(family, records)),
                           {{"class", "whole"}}));

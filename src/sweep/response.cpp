@@ -297,15 +297,19 @@ std::vector<std::size_t> chosen(std::size_t count) {
   return all;
 }
 
-// The legend is narrower than an axis: a long name goes without its unit, and then without its
-// first words.
-std::string narrow_label(const FactorChoice& factor) {
+// The title of the legend, which is narrower than an axis: a long name goes without its first
+// words, and has its unit on a second line.
+std::string narrow_title(const FactorChoice& factor) {
   std::string label = factor_label(factor);
   constexpr std::size_t most = 15;  // letters
-  if (label.size() > most) label.erase(std::min(label.find(" ("), label.size()));
+  if (label.size() <= most) return plot::gnuplot_quoted(label);
+  const std::size_t end = std::min(label.find(" ("), label.size());
+  const std::string unit = label.substr(end);
+  label.erase(end);
   while (label.size() > most && label.find(' ') != std::string::npos)
     label.erase(0, label.find(' ') + 1);
-  return label;
+  return plot::gnuplot_quoted(label) +
+         (unit.empty() ? "" : ".\"\\n\"." + plot::gnuplot_quoted(unit.substr(1)));
 }
 
 std::string curve_plots(const Response& response) {
@@ -322,8 +326,7 @@ std::string curve_plots(const Response& response) {
   text += scale_of_one("y", response) + "set ylabel " +
           plot::gnuplot_quoted(output_label(response.output)) + "\n";
   if (response.along)
-    text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) +
-            " left font ',12'\n";
+    text += "set key title " + narrow_title(*response.along) + " left font ',12'\n";
   std::vector<std::string> plots;
   for (const std::size_t j : chosen(count)) {
     if (!std::isfinite(ends({&grid.values[j * width], width}).low)) continue;  // gnuplot complains
@@ -646,7 +649,7 @@ std::string extremes(const SweepColumns& columns, const OutputColumn& output) {
     return static_cast<std::size_t>(std::find(output.values.begin(), output.values.end(), value) -
                                     output.values.begin());
   };
-  return "Least in " + case_text(columns, at(range.low)) + ", largest in " +
+  return "Smallest in " + case_text(columns, at(range.low)) + ", largest in " +
          case_text(columns, at(range.high)) + ".";
 }
 
