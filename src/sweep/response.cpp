@@ -263,7 +263,7 @@ std::string map(const Response& response) {
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
       scale_of_one("cb", response) + "set cblabel " +
       plot::gnuplot_quoted(output_label(response.output)) + " offset 0.2,0\n" +
-      "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.365\n"
+      "set colorbox user origin screen 0.803,0.565 size screen 0.028,0.365\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
       // Edges of SVG are crisp; in other pictures the background would shine through between cells.
       "border = format eq 'svg' ? 'noborder' : 'border linewidth 0.4'\n" +
@@ -324,7 +324,7 @@ std::string curve_plots(const Response& response) {
             rounded_text(range.low / 1.15, 4) + ":" + rounded_text(range.high * 1.15, 4) + "]\n";
   }
   text += scale_of_one("y", response) + "set ylabel " +
-          plot::gnuplot_quoted(output_label(response.output)) + "\n";
+          plot::gnuplot_quoted(output_label(response.output)) + " offset -0.6,0\n";
   if (response.along)
     text += "set key title " + narrow_title(*response.along) + " left font ',12'\n";
   std::vector<std::string> plots;
@@ -364,19 +364,19 @@ plot::Sheet response_sheet(const Response& response) {
   if (both) {
     const Lines lines = lines_of(response);
     if (!lines.segments.empty()) text += data_of_lines(response, lines);
-    text += "set multiplot\nset lmargin at screen 0.165\nset rmargin at screen 0.785\nset title " +
+    text += "set multiplot\nset lmargin at screen 0.19\nset rmargin at screen 0.77\nset title " +
             title + "\nset tmargin at screen 0.93\nset bmargin at screen 0.565\n" + label +
             map(response) +
             "unset title\nset tmargin at screen 0.45\nset bmargin at screen 0.1\n"
-            "set key at screen 0.805, screen 0.45 left top Left reverse font ',13' samplen 1.6 "
+            "set key at screen 0.787, screen 0.45 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curve_plots(response) + "unset multiplot\n";
   } else {
     const Ends range = ends(response.grid.x);
-    text += "set lmargin at screen 0.165\nset rmargin at screen 0.785\nset title " + title + "\n" +
+    text += "set lmargin at screen 0.19\nset rmargin at screen 0.77\nset title " + title + "\n" +
             label + axis("x", response.across, range.low, range.high) +
-            "set key at screen 0.805, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
+            "set key at screen 0.787, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curve_plots(response);
