@@ -582,22 +582,27 @@ std::string loading_text(const scenario::Case& one) {
   return capitalized(text);
 }
 
+// `Tissue: skin, E 72.4 kPa, nu 0.33, with 1 region of other tissue`
+std::string tissue_text(const scenario::Case& one) {
+  const scenario::Tissue& tissue = one.scenario.tissue;
+  const double modulus =
+      tissue.young_modulus.value_or(one.materials.tissue.young_modulus.value);
+  const std::size_t regions = one.scenario.regions.size();
+  return "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
+         rounded_text(unit::kPa.from_si(modulus), 3) + " kPa, nu " +
+         rounded_text(scenario::poisson_ratio(one), 3) +
+         (regions > 0 ? ", with " + count_text(regions, "region") + " of other tissue" : "");
+}
+
 // What was tested, where, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a
 // sphere of radius 11 mm at x 30, y 30, z 30 mm; underside fixed (bonded base).`
 std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
-  const scenario::Tissue& tissue = one.scenario.tissue;
-  std::string text = "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
-                     rounded_text(unit::kPa.from_si(tissue.young_modulus.value_or(
-                                      one.materials.tissue.young_modulus.value)),
-                                  3) +
-                     " kPa, nu " + rounded_text(scenario::poisson_ratio(one), 3);
-  if (const std::size_t regions = one.scenario.regions.size(); regions > 0)
-    text += ", with " + count_text(regions, "region") + " of other tissue";
+  std::string text = tissue_text(one);
   const double depth = finding_number(record, "peak_travel_mm");
   if (std::isfinite(depth))
     text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one) +
             place_text(one, record.picture);
-  const std::string& side = tissue.base_side;
+  const std::string& side = one.scenario.tissue.base_side;
   if (!record.picture.base.empty())
     text += "; " + (side.empty() ? "underside" : "side " + side) + " " + record.picture.base;
   return text + ".";
@@ -620,21 +625,27 @@ record::Table case_table(const scenario::Family& family, const Records& records)
   return table;
 }
 
-// The finger of several cases with its place, or the loading between plates, where they are the
-// same in all.
-std::string common_loading(const scenario::Family& family, const Records& records) {
-  const auto text_of = [&](const scenario::Case& one) {
-    return family.base.uniform() ? loading_text(one) : "Pressed by " + finger_text(one);
+// What several cases have in common: the tissue, and the finger with its place, or the loading
+// between plates.
+std::vector<std::string> in_common(const scenario::Family& family, const Records& records) {
+  const auto common = [&](const auto& text_of) {
+    const std::string text = text_of(family.cases.front());
+    const bool same = std::all_of(family.cases.begin(), family.cases.end(),
+                                  [&](const auto& one) { return text_of(one) == text; });
+    return same ? text : "";
   };
-  const std::string text = text_of(family.cases.front());
-  const bool same = std::all_of(family.cases.begin(), family.cases.end(),
-                                [&](const auto& one) { return text_of(one) == text; });
-  if (!same || text.empty()) return "";
+  std::string loading = common([&](const scenario::Case& one) {
+    return family.base.uniform() ? loading_text(one) : "Pressed by " + finger_text(one);
+  });
   const std::vector<std::string>& keys = family.design.keys();
   const bool one_place = std::none_of(keys.begin(), keys.end(), [](const std::string& key) {
     return key.starts_with("finger.") || key.starts_with("tissue.shape");
   });
-  return text + (one_place ? place_text(family.cases.front(), records.front().picture) : "") + ".";
+  if (one_place && !loading.empty())
+    loading += place_text(family.cases.front(), records.front().picture);
+  std::vector<std::string> all{common(tissue_text), loading};
+  std::erase(all, "");
+  return all;
 }
 
 // One case: the force, its error, the model, and what is neglected; several: a table of the same.
@@ -668,7 +679,7 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     for (const record::CaseRecord& record : records)
       if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
     page.answer(said_once(ends));
-    if (const std::string text = common_loading(family, records); !text.empty()) page.answer({text});
+    page.answer(in_common(family, records));
     if (records.size() <= most_answers)
       page.answer(element("div", page::table("Every case", case_table(family, records)),
                           {{"class", "whole"}}));
