@@ -121,6 +121,8 @@ TEST(OfACreepTest, the_page_begins_with_stress_times_and_viscous_law) {
                 .code,
             0);
   const std::string two = head_of(folder / "out/creep/report.html");
+  EXPECT_NE(two.find("<p>Tissue: muscle, E 6 kPa, nu 0.4.</p>"), std::string::npos)
+      << "both cases have this tissue" << two;
   for (const char* part :
        {"<p>Creep under 0.5 kPa for 3 s, then recovery for 2 s.</p>",
         ">Kelvin-Voigt, retardation time 1 s</td>", ">Kelvin-Voigt, retardation time 2 s</td>"})
