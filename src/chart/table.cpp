@@ -475,8 +475,7 @@ std::string frame(const Scatter& scatter) {
          axis("y",
               range(100.0 * std::min({scatter.least_error, scatter.floor, scatter.tolerance}),
                     100.0 * std::max({scatter.most_error, scatter.floor, scatter.tolerance}))) +
-         "set key below vertical maxrows " +
-         std::to_string(key_rows(scatter)) +
+         "set key below vertical maxrows " + std::to_string(key_rows(scatter)) +
          " height 1 Left reverse samplen 1.6 spacing 1.2\n"
          "set tmargin 2.5\n";
 }
@@ -557,11 +556,11 @@ plot::Sheet scatter_sheet(const Scatter& scatter) {
     lines.push_back("keyentry with points pointtype " + marker(integrator) +
                     " pointsize 0.9 linecolor rgb '#808080' title " +
                     plot::gnuplot_quoted(integrator.empty() ? "no mesh" : integrator));
-  return {scatter.name,
-          plot::gnuplot_head(scatter.name, {.height = 440 + 20 * static_cast<int>(key_rows(scatter))}) +
-              frame(scatter) + guides(scatter) +
-              "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
-          {scatter.csv_file}};
+  return {
+      scatter.name,
+      plot::gnuplot_head(scatter.name, {.height = 440 + 20 * static_cast<int>(key_rows(scatter))}) +
+          frame(scatter) + guides(scatter) + "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
+      {scatter.csv_file}};
 }
 
 }  // namespace palpate::chart

@@ -136,9 +136,9 @@ class Table {
     return {rounded_text(ms(*slow, "frame_p50_ms"), 3) + " ms",
             "for the slowest whole frame of 1 ms, of " +
                 std::get<std::string>(cell(*slow, "model")) + " by " +
-                std::get<std::string>(cell(*slow, "integrator")) + "; its stages, timed apart, sum to " +
-                rounded_text(ms(*slow, "sum_p50_ms"), 3) + " ms, most of it for the " +
-                part.second};
+                std::get<std::string>(cell(*slow, "integrator")) +
+                "; its stages, timed apart, sum to " + rounded_text(ms(*slow, "sum_p50_ms"), 3) +
+                " ms, most of it for the " + part.second};
   }
 
   // The paper's Table 2 beside the whole meshes by its integrator.

@@ -71,6 +71,7 @@ section + section > details:first-child { border-top: 1px solid var(--line); }
 .many td { display: inline-block; margin-right: 1rem; white-space: normal; }
 .many th, .many td { border: 0; padding: .1rem 0; text-align: left; }
 .many tr { border-bottom: 1px solid var(--line); padding: .3rem 0; } .many .words { min-width: 0; }
+.many .none { display: none; }
 .many td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); }
 footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .5rem; align-items: center; }
@@ -153,7 +154,7 @@ void Page::answer(const std::vector<std::string>& sentences) { answer_ += paragr
 void Page::headline(const std::string& value, const std::string& error, Tone tone) {
   const bool of_value = error.starts_with("±");
   answer_ += element("p",
-                     text(unbroken(value) + (of_value                 ? no_break
+                     text(unbroken(value) + (of_value                ? no_break
                                              : tone == Tone::failure ? ": "
                                                                      : " ")) +
                          element("span", unbroken(error)),
@@ -189,11 +190,10 @@ std::string Page::html(Files files) const {
                 element("header", top) + line() +
                 element("nav", element("ul", contents_), {{"aria-label", "Contents"}}) + line() +
                 element("main", body_, {{"id", "results"}}) + line() +
-                element("footer",
-                        std::string("Made by palpate " PALPATE_VERSION ".") +
-                            (files == Files::beside
-                                 ? " Everything on this page is in the files beside it."
-                                 : ""));
+                element("footer", std::string("Made by palpate " PALPATE_VERSION ".") +
+                                      (files == Files::beside
+                                           ? " Everything on this page is in the files beside it."
+                                           : ""));
   if (!script_.empty()) body += element("script", Markup::ready(script_));
   return "<!DOCTYPE html>\n" +
          element("html", element("head", head) + line() + element("body", body), {{"lang", "en"}})

@@ -585,8 +585,7 @@ std::string loading_text(const scenario::Case& one) {
 // `Tissue: skin, E 72.4 kPa, nu 0.33, with 1 region of other tissue`
 std::string tissue_text(const scenario::Case& one) {
   const scenario::Tissue& tissue = one.scenario.tissue;
-  const double modulus =
-      tissue.young_modulus.value_or(one.materials.tissue.young_modulus.value);
+  const double modulus = tissue.young_modulus.value_or(one.materials.tissue.young_modulus.value);
   const std::size_t regions = one.scenario.regions.size();
   return "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
          rounded_text(unit::kPa.from_si(modulus), 3) + " kPa, nu " +

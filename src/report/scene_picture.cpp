@@ -27,7 +27,7 @@ using Colour = std::array<double, 3>;  // red, green, blue, 0 to 255
 
 constexpr double width = 800.0, height = 640.0;  // px, of the page
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-constexpr double margin = 60.0, foot = 40.0;  // px
+constexpr double margin = 60.0, foot = 40.0;               // px
 constexpr double first_entry = 70.0, entry_height = 24.0;  // px, of the legend below the title
 
 // Above the body there is room for the title and the legend.

@@ -56,13 +56,14 @@ TEST_F(ReportPages, OpenWithoutAFault) {
   ASSERT_EQ(sweep({"run", "out/s_sweep"}).code, 0);
   ASSERT_EQ(sweep({"merge", "out/s_sweep"}).code, 0);
   make({"compare", "out/press", "out/press", "--report", "out/compared/report.html"});
-  write_file(folder_ / "slide.toml",
-             "[tissue]\n[[region]]\nkind = \"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"20 mm\"]\n"
-             "radius = \"5 mm\"\nmaterial = \"muscle\"\n[contact]\nfriction = 0.3\n"
-             "[finger]\nx = \"20 mm\"\n[solver]\nmodel = \"mass_spring\"\n"
-             "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n"
-             "[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n[output]\ninterval = \"100 ms\"\n[sweep]\n"
-             "\"finger.spheres\" = [1, 8]\n");
+  write_file(
+      folder_ / "slide.toml",
+      "[tissue]\n[[region]]\nkind = \"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"20 mm\"]\n"
+      "radius = \"5 mm\"\nmaterial = \"muscle\"\n[contact]\nfriction = 0.3\n"
+      "[finger]\nx = \"20 mm\"\n[solver]\nmodel = \"mass_spring\"\n"
+      "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n"
+      "[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n[output]\ninterval = \"100 ms\"\n[sweep]\n"
+      "\"finger.spheres\" = [1, 8]\n");
   make({"run", "slide.toml"});
   make({"chart", "--frames", "5", "--report", "out/frames/report.html"});
   make({"open", "out"});
@@ -88,7 +89,8 @@ TEST_F(ReportPages, TheInspectorFindsFaults) {
       "stroke=\"#b4b4b4\"/><text y=9>under</text><text y=9>over</text></svg></div>"
       "<table><caption>hash</caption><tr><td>"
       "0123456789012345678901234567890123456789012345678901234567890123456789"
-      "0123456789012345678901234567890123456789</td></tr></table></main><script>nothing()</script></body></html>");
+      "0123456789012345678901234567890123456789</td></tr></table></main><script>nothing()</"
+      "script></body></html>");
   const auto faults = faults_of_pages(folder_.path(), {"bad.html"}, Scheme::light);
   for (const char* fault :
        {"CONSOLE", "id a twice", "no place #b", "c.csv", "loads d.png", "without words", "px wide",

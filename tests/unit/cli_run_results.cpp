@@ -74,8 +74,7 @@ TEST(ARunThatEndsEarly, keeps_its_curve_and_shows_no_force_where_there_is_none) 
   EXPECT_GT(number(rows, last, "travel_mm"), 3.5);  // 3.6 mm; nine tenths of the way
   EXPECT_LT(number(rows, last, "travel_mm"), 3.7);
   EXPECT_GT(number(rows, last, "force_N"), number(rows, last / 2, "force_N"));
-  EXPECT_NE(head("kept").find(" N up to a displacement of 3."), std::string::npos)
-      << head("kept");
+  EXPECT_NE(head("kept").find(" N up to a displacement of 3."), std::string::npos) << head("kept");
   const Ended none = palpate(
       folder.path(), {"run", "thin.toml", "--out", "none", "--set", "output.interval=\"1 s\""});
   EXPECT_EQ(none.code, 4);
@@ -93,9 +92,10 @@ TEST(ARunThatDiverges, says_so_first_on_page_and_terminal) {
   EXPECT_TRUE(says(ended, "mm, where the run diverged; no error is stated.")) << ended.err;
   EXPECT_TRUE(ended.err.ends_with(": 1 of 1 case, 1 ended early\n")) << ended.err;
   const std::string page = read_file(folder / "out/01_step_above_limit/report.html");
-  EXPECT_NE(page.find("<p class=\"big failure\">Diverged at 0.0574\u00a0s: <span>energy grew without "
-                      "input</span></p>"),
-            std::string::npos);
+  EXPECT_NE(
+      page.find("<p class=\"big failure\">Diverged at 0.0574\u00a0s: <span>energy grew without "
+                "input</span></p>"),
+      std::string::npos);
   EXPECT_EQ(page.find("<p class=\"big\">"), std::string::npos);
 }
 
@@ -171,8 +171,9 @@ TEST(OfALayeredBlock, sides_that_were_not_computed_are_an_empty_cell) {
   const record::Table plain = findings({});
   EXPECT_NE(number(plain, 0, "side_effect"), 0.0);
   const record::Table layered =
-      findings({"--set", "region=[{kind=\"sphere\",centre=[\"15 mm\",\"15 mm\",\"8 mm\"],radius="
-                         "\"3 mm\",material=\"skin\"}]"});
+      findings({"--set",
+                "region=[{kind=\"sphere\",centre=[\"15 mm\",\"15 mm\",\"8 mm\"],radius="
+                "\"3 mm\",material=\"skin\"}]"});
   for (const char* name : {"side_effect", "body_effect"}) {
     const int column = layered.find(name);
     ASSERT_GE(column, 0) << name;

@@ -37,7 +37,7 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
        {"<caption>Forces</caption>", "<th scope=\"col\" class=\"number\">force</th>",
         "<th scope=\"col\">case</th>", "<th scope=\"row\">a</th>",
         "<td data-column=\"force\" class=\"number\">1.235</td>",
-        "<td data-column=\"force\">–</td>"})
+        "<td data-column=\"force\" class=\"none\">–</td>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(table("n", {{"a", "b"}, {{"x", INFINITY}}}).html().find("inf"), std::string::npos);
   const record::Table long_one{{"n"}, {{1.0}, {2.0}, {3.0}}};
@@ -117,6 +117,8 @@ TEST(Page, PrintsWhatIsFoldedAndWideTablesRowByRow) {
             std::string::npos);
   EXPECT_EQ(print.find("details:not([open])"), std::string::npos);
   EXPECT_NE(css.find("\n.many td { display: inline-block;"), std::string::npos);
+  EXPECT_NE(css.find(".many .none { display: none; }"), std::string::npos)
+      << "row by row a missing value needs no place";
   EXPECT_NE(print.find(".words { min-width: 0; }"), std::string::npos);
   record::Table wide{{}, {{}}};
   for (int i = 0; i < 9; ++i) {

@@ -219,7 +219,8 @@ TEST(ScenePicture, texts_along_the_axes_keep_apart) {
           };
           EXPECT_FALSE(std::abs(all[i].x - all[k].x) < half(all[i]) + half(all[k]) &&
                        std::abs(all[i].y - all[k].y) < 0.9 * letters)
-              << turn << ": " << all[i].text << " over " << all[k].text << (narrow ? ", narrow" : "");
+              << turn << ": " << all[i].text << " over " << all[k].text
+              << (narrow ? ", narrow" : "");
         }
   }
   // x, y and their ends are there on a narrow page; the units are not.

@@ -110,7 +110,8 @@ TEST(Response, OfWordsHasACurveForEach) {
             "1,skin,1\n2,skin,\n3,skin,3\n1,bone's,4\n2,bone's,5\n3,bone's,6\n");
 }
 
-// The legend beside the curves has the unit of its factor, on a line of its own if the name is long.
+// The legend beside the curves has the unit of its factor, on a line of its own if the name is
+// long.
 TEST(Response, TheLegendOfTheSecondPanelHasItsUnit) {
   sweep::SweepColumns columns = grid();
   std::swap(columns.factors[0], columns.factors[1]);
@@ -122,9 +123,9 @@ TEST(Response, TheLegendOfTheSecondPanelHasItsUnit) {
   }
   const auto made = response(columns, columns.outputs[0], "A sweep");
   ASSERT_TRUE(made && made->along);
-  EXPECT_NE(response_sheet(*made).script.find(
-                "set key title 'Young''s modulus'.\"\\n\".'(kPa)' left"),
-            std::string::npos)
+  EXPECT_NE(
+      response_sheet(*made).script.find("set key title 'Young''s modulus'.\"\\n\".'(kPa)' left"),
+      std::string::npos)
       << response_sheet(*made).script;
   columns.factors[1] = number_factor("step.1.to", "mm", Scale::linear);
   columns.factors[1].choice.levels = 4;
