@@ -60,7 +60,7 @@ summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; bor
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
 .cards figure svg { max-height: 22rem; } .cards .plot text { font-size: 1.22em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
-.whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .result td:last-child { white-space: normal; } .whole table { width: 100%; }
+.whole .words { min-width: 0; white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
   .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }

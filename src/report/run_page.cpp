@@ -363,7 +363,7 @@ using Records = std::vector<record::CaseRecord>;
 
 constexpr std::size_t most_columns = 6;  // cases of a table with one column per case
 constexpr std::size_t most_rows = 200;
-constexpr std::size_t most_answers = 8;  // cases that the head of the page names
+constexpr std::size_t most_answers = 8;  // cases of the table below the figures
 
 std::string figure_words(const plot::Figure& figure) {
   std::string words = figure.y_label + " against " + within_sentence(figure.x_label);
@@ -647,7 +647,7 @@ std::vector<std::string> in_common(const scenario::Family& family, const Records
   return all;
 }
 
-// One case: the force, its error, the model, and what is neglected; several: a table of the same.
+// The force, its error, the model, and what is neglected: of one case, or of several together.
 void add_answer(page::Page& page, const scenario::Family& family, const Records& records) {
   if (records.size() == 1) {
     const record::CaseRecord& record = records.front();
@@ -679,11 +679,7 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
       if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
     page.answer(said_once(ends));
     page.answer(in_common(family, records));
-    if (records.size() <= most_answers)
-      page.answer(element("div", page::table("Every case", case_table(family, records)),
-                          {{"class", "whole"}}));
-    else
-      page.answer({first_statement(lines[0]), first_statement(lines[2])});
+    page.answer({first_statement(lines[0]), first_statement(lines[2])});
   }
 }
 
@@ -710,6 +706,11 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
                                   [&](const plot::Figure& one) { return one.name == name; });
                  return figure == shown.figures.end() ? "" : figure_words(*figure);
                }));
+  if (records.size() > 1 && records.size() <= most_answers)  // the first screen is for the curves
+    page.section("Every case", element("div",
+                                       page::table("Force, error, model and what is neglected",
+                                                   case_table(family, records)),
+                                       {{"class", "whole"}}));
   if (!records.empty() && !records.front().picture.faces.empty()) {
     page.section("Scene", scene_view(records.front().picture, family.title));
     page.script(scene_script());
