@@ -39,7 +39,8 @@ inline Ended browse(const fs::path& page, Scheme scheme, const std::vector<std::
   return run_program({.arguments = arguments, .program = "chromium"});
 }
 
-// A page that opens others in frames of 360, 390 and 1400 px and lists their faults.
+// A page that opens others in frames of 360, 390 and 1400 px, and as on paper, and lists their
+// faults.
 inline std::string inspection(const std::vector<std::string>& pages) {
   std::string list;
   for (const std::string& page : pages) list += "\"" + page + "\",";
@@ -79,12 +80,41 @@ function figures(page, view, all) {
   }
   poor.forEach(what => say(page, "has " + what + " to 1 in a figure"));
 }
+// Texts of a figure that stand over each other; gnuplot draws some twice at one place.
+function crowded(page, width, all) {
+  for (const s of all(".plot svg, #scene-still svg")) {
+    const texts = [...s.querySelectorAll("text")].filter(t => t.checkVisibility() && t.textContent.trim())
+      .map(t => ({ words: t.textContent.trim(), box: t.getBoundingClientRect() }));
+    texts.forEach((one, i) => texts.slice(0, i).forEach(other => {
+      const a = one.box, b = other.box;
+      const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+      const along = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+      const twice = one.words === other.words && Math.abs(a.left - b.left) < 1 && Math.abs(a.top - b.top) < 1;
+      if (across > 1 && along > .4 * Math.min(a.height, b.height) && !twice)
+        say(page, "has " + one.words + " over " + other.words + " in a figure at " + width + " px");
+    }));
+  }
+}
+// The page with the rules of paper, in the width between the margins of A4 at 96 dpi.
+const paper = 718;
+function print(page, frame) {
+  const d = frame.contentDocument, all = q => [...d.querySelectorAll(q)];
+  all("details").forEach(e => e.open = true);
+  all("style").forEach(s => s.textContent = s.textContent.replaceAll("@media print", "@media all"));
+  crowded(page, "paper's " + paper, all);
+  const names = new Set();
+  for (const e of all("main *, header *"))
+    if (e.checkVisibility() && !e.closest("svg") && e.getBoundingClientRect().right > paper + 1)
+      names.add((e.closest("table")?.caption ?? e).textContent.slice(0, 30));
+  names.forEach(name => say(page, "is cut on paper: " + name));
+}
 function look(page, width, frame) {
   const d = frame.contentDocument, view = frame.contentWindow, all = q => [...d.querySelectorAll(q)];
   for (const t of all(".wide"))
     if (!t.closest("details:not([open])") && t.scrollWidth > t.clientWidth + 1) say(page, "has a table that is cut at " + width + " px");
   all("details").forEach(e => e.open = true);
   figures(page, view, all);
+  crowded(page, width, all);
   const wide = d.documentElement.scrollWidth;
   if (wide > width) say(page, "is " + wide + " px wide in a window of " + width);
   const ids = all("[id]").map(e => e.id);
@@ -129,12 +159,13 @@ function look(page, width, frame) {
   return all("h2").length;
 }
 (async () => {
-  for (const page of pages) for (const width of [360, 390, 1400]) {
+  for (const page of pages) for (const width of [360, 390, 1400, paper]) {
     const frame = document.createElement("iframe");
     frame.style.width = width + "px"; frame.style.height = "800px"; frame.style.border = "0";
     document.body.append(frame);
     await new Promise(go => { frame.onload = go; frame.src = page; });
-    found.push("SEEN " + page + " " + width + " " + look(page, width, frame));
+    if (width === paper) print(page, frame);
+    found.push("SEEN " + page + " " + width + " " + (width === paper ? 0 : look(page, width, frame)));
     frame.remove();
   }
   document.getElementById("found").textContent = "BEGIN\n" + found.join("\n") + "\nEND";
@@ -170,7 +201,7 @@ inline std::vector<std::string> faults_of_pages(const fs::path& folder,
     else if (!fs::exists((folder / of).parent_path() / to))
       faults.push_back(of + " links to " + to + ", which is not there");
   }
-  if (seen != 3 * pages.size()) faults.push_back("not every page was opened at each width");
+  if (seen != 4 * pages.size()) faults.push_back("not every page was opened at each width");
   return faults;
 }
 

@@ -134,7 +134,7 @@ inline std::string project_file(const std::string& name) {
   return std::string(PALPATE_SOURCE_DIR) + "/" + name;
 }
 
-// The number with which a page begins, and what stands beside it.
+// The number with which a page begins, and what stands beside it, with plain spaces.
 inline std::string headline_of(const fs::path& page) {
   const std::string html = read_file(page), begin = "<p class=\"big\">";
   const std::size_t from = html.find(begin);
@@ -146,6 +146,8 @@ inline std::string headline_of(const fs::path& page) {
     if (!tag) words += html[at];
     if (html[at] == '>') tag = false;
   }
+  for (std::size_t at = words.find("\u00a0"); at != std::string::npos; at = words.find("\u00a0"))
+    words.replace(at, 2, " ");
   return words;
 }
 

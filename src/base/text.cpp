@@ -172,7 +172,9 @@ std::string capitalized(std::string text) {
 
 std::string within_sentence(std::string label) {
   const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
-  if (label.size() > 1 && small(label[1])) label[0] = lower_case(label.substr(0, 1))[0];
+  const std::size_t name = label.find("'s ");  // `Young's modulus`
+  if (label.size() > 1 && small(label[1]) && name >= label.find(' '))
+    label[0] = lower_case(label.substr(0, 1))[0];
   return label;
 }
 

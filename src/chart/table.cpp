@@ -102,7 +102,7 @@ const std::vector<std::string> columns{"case",
                                        "rms_error",
                                        "reference",
                                        "reference_error",
-                                       "claimed_error",
+                                       "shown_error",
                                        "surface_error",
                                        "surface_reference_error",
                                        "greatest_time_error",
@@ -454,6 +454,14 @@ std::string axis(const char* name, const Range& range) {
          number_text(range.high) + "]\n" + plot::gnuplot_logarithmic(name, range.low, range.high);
 }
 
+// Two columns of the key: in more of them, which are wider than the page, gnuplot drops entries.
+std::size_t key_rows(const Scatter& scatter) {
+  constexpr std::size_t front = 1;
+  const std::size_t entries =
+      front + scatter.marks.size() + scatter.models.size() + scatter.integrators.size();
+  return (entries + 1) / 2;
+}
+
 std::string frame(const Scatter& scatter) {
   // NaN means missing, not undefined: rows that are not drawn do not break the line of the front.
   return "set datafile missing NaN\n"
@@ -467,7 +475,8 @@ std::string frame(const Scatter& scatter) {
          axis("y",
               range(100.0 * std::min({scatter.least_error, scatter.floor, scatter.tolerance}),
                     100.0 * std::max({scatter.most_error, scatter.floor, scatter.tolerance}))) +
-         "set key below vertical maxrows 4 height 1 Left reverse samplen 1.6 spacing 1.2\n"
+         "set key below vertical maxrows " + std::to_string(key_rows(scatter)) +
+         " height 1 Left reverse samplen 1.6 spacing 1.2\n"
          "set tmargin 2.5\n";
 }
 
@@ -500,7 +509,7 @@ std::string using_rows(const Scatter& scatter, const std::string& condition) {
   return plot::gnuplot_quoted(scatter.csv_file) + " using ((strcol('case') eq " +
          plot::gnuplot_quoted(scatter.case_name) + " && strcol('status') eq 'measured'" +
          (condition.empty() ? "" : " && " + condition) +
-         ") ? column('cost_us_per_ms') : NaN):(100*column('claimed_error'))";
+         ") ? column('cost_us_per_ms') : NaN):(100*column('shown_error'))";
 }
 
 std::string points(const Scatter& scatter, const std::string& model,
@@ -547,10 +556,11 @@ plot::Sheet scatter_sheet(const Scatter& scatter) {
     lines.push_back("keyentry with points pointtype " + marker(integrator) +
                     " pointsize 0.9 linecolor rgb '#808080' title " +
                     plot::gnuplot_quoted(integrator.empty() ? "no mesh" : integrator));
-  return {scatter.name,
-          plot::gnuplot_head(scatter.name, {.height = 520}) + frame(scatter) + guides(scatter) +
-              "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
-          {scatter.csv_file}};
+  return {
+      scatter.name,
+      plot::gnuplot_head(scatter.name, {.height = 440 + 20 * static_cast<int>(key_rows(scatter))}) +
+          frame(scatter) + guides(scatter) + "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
+      {scatter.csv_file}};
 }
 
 }  // namespace palpate::chart

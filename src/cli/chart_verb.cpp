@@ -142,7 +142,7 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
   const bool displaced = std::ranges::any_of(
       charts, [](const chart::CaseChart& one) { return !one.surface.pieces.empty(); });
   std::vector<std::string> results{"configuration",
-                                   "claimed_error",
+                                   "shown_error",
                                    "cost_us_per_ms",
                                    displaced ? "surface_error" : "total_s",
                                    "pareto",
@@ -155,8 +155,13 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
   page.section("Configurations", page::table_of_file("Every configuration that was tried",
                                                      with_words(page::columns_of(table, results)),
                                                      "chart.csv", most));
+  std::vector<std::string> all = table.columns;  // each row is headed by its configuration
+  std::erase(all, "configuration");
+  all.insert(all.begin(), "configuration");
+  if (!several) std::erase(all, "case");
   page.section("Every column",
-               page::table_of_file("Settings, errors and costs", table, "chart.csv", most),
+               page::table_of_file("Settings, errors and costs", page::columns_of(table, all),
+                                   "chart.csv", most),
                page::Page::Shown::folded);
   page.section("How it was made",
                page::making({.command = "palpate chart " + family.name + ".toml",

@@ -553,7 +553,6 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
     throw InputError({command.picture, 0, 0},
                      "a picture is written as `.svg` or `.html`; give one of these endings");
   const scenario::Family family = read_or_outline(subject, command.settings);
-  for (const Problem& note : family.notes) Talk::error("note: " + note.text());
   const double start = processor_seconds();
   const std::vector<scene::Scene> scenes = run::build_all(family, 1);
   const double set_up = processor_seconds() - start;
@@ -583,6 +582,7 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
     print_text(text);
     if (!first_of_several && seconds) tell_cost(family, *seconds, talk);
   }
+  for (const Problem& note : family.notes) talk.say("note: " + note.text());  // the answer is first
   if (command.subject != "-") talk.next("run", command.subject);
   return exit_good;
 }

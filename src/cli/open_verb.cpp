@@ -107,7 +107,8 @@ std::string index_of(const fs::path& folder, const std::vector<std::string>& rep
     std::string kind =
         title.substr(std::min(heading.size() + std::string(" – palpate ").size(), title.size()));
     kind = kind.empty() || kind == "run" ? "" : capitalized(kind) + ": ";
-    if (!headings.insert(heading).second) heading += ", " + report;
+    if (!headings.insert(heading).second)  // of results with the same title, each with its folder
+      heading += " (" + fs::path(report).parent_path().generic_string() + ")";
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
       const std::string cell = "\"verdict\">" + std::string(page::verdicts[i]) + "<";
       for (std::size_t at = summary.paper.find(cell); at != std::string::npos;

@@ -545,8 +545,10 @@ std::vector<Item> items_of(const FolderComparison& comparison) {
     if (file.state == FileComparison::State::missing) failed("file", "the file is missing");
     if (file.state == FileComparison::State::extra) failed("file", "the file is not wanted");
     if (!file.comparison.rows_equal())
-      failed("rows", "got " + std::to_string(file.comparison.rows_got) + ", want " +
-                         std::to_string(file.comparison.rows_want));
+      failed("rows",
+             "got " + std::to_string(file.comparison.rows_got) + ", want " +
+                 std::to_string(file.comparison.rows_want) + "; compared: the first " +
+                 std::to_string(std::min(file.comparison.rows_got, file.comparison.rows_want)));
     for (const ColumnComparison& column : file.comparison.columns) {
       Item item{.file = file.file, .name = column.name, .rank = rank_of(column), .column = &column};
       if (column.state == ColumnComparison::State::ignored) item.state = Item::State::skipped;

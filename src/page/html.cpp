@@ -72,8 +72,10 @@ Markup cell(const record::Cell& value, bool heading, const std::string& column) 
     return element(heading ? "th" : "td", shown, attributes);
   }
   const auto* word = std::get_if<std::string>(&value);
+  if (word == nullptr) attributes.emplace_back("class", "none");
   constexpr std::size_t sentence = 50;  // letters; a column of such texts is not made narrow
-  if (word != nullptr && word->size() > sentence) attributes.emplace_back("class", "words");
+  if (word != nullptr && word->size() > sentence)  // one word of that length may be broken
+    attributes.emplace_back("class", word->find(' ') == std::string::npos ? "long" : "words");
   return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word, attributes);
 }
 

@@ -33,10 +33,11 @@ input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .big span { font-size: .65em; font-weight: 400; } .failure { color: var(--fail); }
 .result { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .result p { margin: .35rem 0; }
-nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
+main section:first-child h2 { margin-top: .8rem; }
+nav ul { list-style: none; padding: 0; margin: .7rem 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
 figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
-figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
+figure svg { display: block; width: 100%; max-width: 40rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
   #scene-still text { font-size: 1.8em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
 #scene-still .back { fill: none; } #scene-still .ink { fill: var(--ink); }
@@ -52,20 +53,26 @@ figure svg { display: block; width: 100%; max-width: 44rem; height: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; overflow-wrap: normal; }
 th, td { border-bottom: 1px solid var(--line); padding: .25rem .8rem .25rem 0; text-align: left;
   vertical-align: top; } th { font-weight: 600; } .number { text-align: right; }
-.words { min-width: 24rem; }
+.words { min-width: 24rem; } .long { overflow-wrap: anywhere; }
 code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--card);
   padding: .8rem; white-space: pre-wrap; } code { background: var(--card); }
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards figure svg { max-height: 22rem; } .cards .plot text { font-size: 1.4em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
-.whole .words { min-width: 0; white-space: normal; } .result td { white-space: nowrap; } .result td:last-child { white-space: normal; } .whole table { width: 100%; }
+.cards figure svg { max-height: 22rem; } .cards .plot text { font-size: 1.22em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.whole .words { min-width: 0; white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
   .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
   .wide th, .wide td { border: 0; padding: .1rem 0; text-align: left; } .wide .words { min-width: 0; }
   td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } .wide td:empty { display: none; }
   body { display: flex; flex-direction: column; } main { order: 1; min-width: 0; } nav { order: 2; } footer { order: 3; } }
+.many thead { display: none; } .many table, .many tr, .many th { display: block; }
+.many td { display: inline-block; margin-right: 1rem; white-space: normal; }
+.many th, .many td { border: 0; padding: .1rem 0; text-align: left; }
+.many tr { border-bottom: 1px solid var(--line); padding: .3rem 0; } .many .words { min-width: 0; }
+.many .none { display: none; }
+.many td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); }
 footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .5rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
@@ -74,11 +81,7 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
   h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { margin-top: .3rem; }
   tbody tr:first-child { break-before: avoid; } summary { list-style: none; break-after: avoid; }
   details::details-content { content-visibility: visible; height: auto; }
-  .many thead { display: none; } .many table, .many tr, .many th { display: block; }
-  .many td { display: inline-block; margin-right: 1rem; }
-  .many th, .many td { border: 0; padding: .1rem 0; text-align: left; }
-  .many tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
-  .many td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } }
+  .words { min-width: 0; } }
 )css";
 }
 
@@ -116,6 +119,20 @@ std::string with_prefix(const std::string& svg, const std::string& prefix) {
   return made;
 }
 
+constexpr const char* no_break = "\u00a0";  // a space at which no line ends
+
+// No line ends between a number and its unit, or between `±` and its number.
+std::string unbroken(const std::string& words) {
+  std::string text;
+  for (const char letter : words) {
+    const bool after_digit =
+        !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0;
+    text += letter == ' ' && (after_digit || text.ends_with("±")) ? std::string(no_break)
+                                                                  : std::string(1, letter);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string id_of(const std::string& heading) {
@@ -135,7 +152,12 @@ Page::Page(std::string title, std::string kind)
 void Page::answer(const std::vector<std::string>& sentences) { answer_ += paragraphs(sentences); }
 
 void Page::headline(const std::string& value, const std::string& error, Tone tone) {
-  answer_ += element("p", text(value + " ") + element("span", error),
+  const bool of_value = error.starts_with("±");
+  answer_ += element("p",
+                     text(unbroken(value) + (of_value                ? no_break
+                                             : tone == Tone::failure ? ": "
+                                                                     : " ")) +
+                         element("span", unbroken(error)),
                      {{"class", tone == Tone::failure ? "big failure" : "big"}});
 }
 
@@ -154,7 +176,7 @@ void Page::section(const std::string& heading, const Markup& body, Shown shown) 
 
 void Page::script(const std::string& code) { script_ += code; }
 
-std::string Page::html() const {
+std::string Page::html(Files files) const {
   const Markup head =
       element("meta", Markup(), {{"charset", "utf-8"}}) +
       element("meta", Markup(),
@@ -168,9 +190,10 @@ std::string Page::html() const {
                 element("header", top) + line() +
                 element("nav", element("ul", contents_), {{"aria-label", "Contents"}}) + line() +
                 element("main", body_, {{"id", "results"}}) + line() +
-                element("footer", "Made by palpate " PALPATE_VERSION
-                                  ". Everything on this page is in the "
-                                  "files beside it.");
+                element("footer", std::string("Made by palpate " PALPATE_VERSION ".") +
+                                      (files == Files::beside
+                                           ? " Everything on this page is in the files beside it."
+                                           : ""));
   if (!script_.empty()) body += element("script", Markup::ready(script_));
   return "<!DOCTYPE html>\n" +
          element("html", element("head", head) + line() + element("body", body), {{"lang", "en"}})
@@ -305,7 +328,7 @@ void write(Page page, WholeFolder& folder) {
   for (const HashedFile& file : folder.files())
     if (++count <= most) items += element("li", link(file.path, file.path));
   page.section("Files", element("ul", items), Page::Shown::folded);
-  folder.write(file_name, page.html());
+  folder.write(file_name, page.html(Page::Files::beside));
 }
 
 }  // namespace palpate::page

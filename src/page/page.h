@@ -36,8 +36,10 @@ class Page {
   // A script of our own, which the page runs when it has been read.
   void script(const std::string& code);
 
-  // The whole page, always the same for the same content.
-  [[nodiscard]] std::string html() const;
+  // The whole page, always the same for the same content. Its foot says so where all that it shows
+  // is in files beside it.
+  enum class Files { none, beside };
+  [[nodiscard]] std::string html(Files files = Files::none) const;
 
  private:
   std::string title_, kind_;

@@ -363,12 +363,12 @@ using Records = std::vector<record::CaseRecord>;
 
 constexpr std::size_t most_columns = 6;  // cases of a table with one column per case
 constexpr std::size_t most_rows = 200;
-constexpr std::size_t most_answers = 8;  // cases that the head of the page names
+constexpr std::size_t most_answers = 8;  // cases of the table below the figures
 
 std::string figure_words(const plot::Figure& figure) {
   std::string words = figure.y_label + " against " + within_sentence(figure.x_label);
   if (figure.series.size() > 1) words += ", " + std::to_string(figure.series.size()) + " curves";
-  if (figure.bar) words += "; the colour is " + figure.bar->label;
+  if (figure.bar) words += "; the colour is " + within_sentence(figure.bar->label);
   if (figure.y_axis == plot::Axis::logarithmic)
     words +=
         figure.x_axis == plot::Axis::logarithmic ? "; logarithmic scales" : "; logarithmic scale";
@@ -537,6 +537,19 @@ std::string finger_text(const scenario::Case& one) {
          " of radius " + rounded_text(unit::mm.from_si(finger.radius), 3) + " mm";
 }
 
+// ` at x 30, y 30, z 30 mm`: where the finger touches the surface first, in the scenario's
+// coordinates; nothing without a picture and on a half-space, which is the same everywhere.
+std::string place_text(const scenario::Case& one, const record::ScenePicture& picture) {
+  if (picture.finger.empty() ||
+      std::holds_alternative<scenario::HalfSpace>(one.scenario.tissue.shape))
+    return "";
+  const Vec3 place = picture.axes.transpose() * picture.touch;
+  const auto mm = [](double metres) {  // to a hundredth
+    return number_text(std::round(100.0 * unit::mm.from_si(metres)) / 100.0 + 0.0);
+  };
+  return " at x " + mm(place.x()) + ", y " + mm(place.y()) + ", z " + mm(place.z()) + " mm";
+}
+
 // The viscous law of a case between plates, for the model that ran.
 std::string viscosity_of(const scenario::Case& one, const record::CaseRecord& record) {
   const std::string model = finding_word(record, "model");
@@ -569,21 +582,26 @@ std::string loading_text(const scenario::Case& one) {
   return capitalized(text);
 }
 
-// What was tested, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a sphere of
-// radius 11 mm; underside fixed (bonded base).`
-std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
+// `Tissue: skin, E 72.4 kPa, nu 0.33, with 1 region of other tissue`
+std::string tissue_text(const scenario::Case& one) {
   const scenario::Tissue& tissue = one.scenario.tissue;
-  std::string text = "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
-                     rounded_text(unit::kPa.from_si(tissue.young_modulus.value_or(
-                                      one.materials.tissue.young_modulus.value)),
-                                  3) +
-                     " kPa, nu " + rounded_text(scenario::poisson_ratio(one), 3);
-  if (const std::size_t regions = one.scenario.regions.size(); regions > 0)
-    text += ", with " + count_text(regions, "region") + " of other tissue";
+  const double modulus = tissue.young_modulus.value_or(one.materials.tissue.young_modulus.value);
+  const std::size_t regions = one.scenario.regions.size();
+  return "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
+         rounded_text(unit::kPa.from_si(modulus), 3) + " kPa, nu " +
+         rounded_text(scenario::poisson_ratio(one), 3) +
+         (regions > 0 ? ", with " + count_text(regions, "region") + " of other tissue" : "");
+}
+
+// What was tested, where, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a
+// sphere of radius 11 mm at x 30, y 30, z 30 mm; underside fixed (bonded base).`
+std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
+  std::string text = tissue_text(one);
   const double depth = finding_number(record, "peak_travel_mm");
   if (std::isfinite(depth))
-    text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one);
-  const std::string& side = tissue.base_side;
+    text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one) +
+            place_text(one, record.picture);
+  const std::string& side = one.scenario.tissue.base_side;
   if (!record.picture.base.empty())
     text += "; " + (side.empty() ? "underside" : "side " + side) + " " + record.picture.base;
   return text + ".";
@@ -606,18 +624,30 @@ record::Table case_table(const scenario::Family& family, const Records& records)
   return table;
 }
 
-// The finger of several cases, or the loading between plates, if it is the same in all.
-std::string common_loading(const scenario::Family& family) {
-  const auto text_of = [&](const scenario::Case& one) {
-    return family.base.uniform() ? loading_text(one) : "Pressed by " + finger_text(one);
+// What several cases have in common: the tissue, and the finger with its place, or the loading
+// between plates.
+std::vector<std::string> in_common(const scenario::Family& family, const Records& records) {
+  const auto common = [&](const auto& text_of) {
+    const std::string text = text_of(family.cases.front());
+    const bool same = std::all_of(family.cases.begin(), family.cases.end(),
+                                  [&](const auto& one) { return text_of(one) == text; });
+    return same ? text : "";
   };
-  const std::string text = text_of(family.cases.front());
-  const bool same = std::all_of(family.cases.begin(), family.cases.end(),
-                                [&](const auto& one) { return text_of(one) == text; });
-  return same && !text.empty() ? text + "." : "";
+  std::string loading = common([&](const scenario::Case& one) {
+    return family.base.uniform() ? loading_text(one) : "Pressed by " + finger_text(one);
+  });
+  const std::vector<std::string>& keys = family.design.keys();
+  const bool one_place = std::none_of(keys.begin(), keys.end(), [](const std::string& key) {
+    return key.starts_with("finger.") || key.starts_with("tissue.shape");
+  });
+  if (one_place && !loading.empty())
+    loading += place_text(family.cases.front(), records.front().picture);
+  std::vector<std::string> all{common(tissue_text), loading};
+  std::erase(all, "");
+  return all;
 }
 
-// One case: the force, its error, the model, and what is neglected; several: a table of the same.
+// The force, its error, the model, and what is neglected: of one case, or of several together.
 void add_answer(page::Page& page, const scenario::Family& family, const Records& records) {
   if (records.size() == 1) {
     const record::CaseRecord& record = records.front();
@@ -648,12 +678,8 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     for (const record::CaseRecord& record : records)
       if (!record.reason.empty()) ends.push_back({record.name, early_end(record)});
     page.answer(said_once(ends));
-    if (const std::string text = common_loading(family); !text.empty()) page.answer({text});
-    if (records.size() <= most_answers)
-      page.answer(element("div", page::table("Every case", case_table(family, records)),
-                          {{"class", "whole"}}));
-    else
-      page.answer({first_statement(lines[0]), first_statement(lines[2])});
+    page.answer(in_common(family, records));
+    page.answer({first_statement(lines[0]), first_statement(lines[2])});
   }
 }
 
@@ -680,6 +706,11 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
                                   [&](const plot::Figure& one) { return one.name == name; });
                  return figure == shown.figures.end() ? "" : figure_words(*figure);
                }));
+  if (records.size() > 1 && records.size() <= most_answers)  // the first screen is for the curves
+    page.section("Every case", element("div",
+                                       page::table("Force, error, model and what is neglected",
+                                                   case_table(family, records)),
+                                       {{"class", "whole"}}));
   if (!records.empty() && !records.front().picture.faces.empty()) {
     page.section("Scene", scene_view(records.front().picture, family.title));
     page.script(scene_script());

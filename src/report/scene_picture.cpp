@@ -27,7 +27,15 @@ using Colour = std::array<double, 3>;  // red, green, blue, 0 to 255
 
 constexpr double width = 800.0, height = 640.0;  // px, of the page
 constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
-constexpr double margin = 60.0, head = 100.0, foot = 40.0;  // px
+constexpr double margin = 60.0, foot = 40.0;               // px
+constexpr double first_entry = 70.0, entry_height = 24.0;  // px, of the legend below the title
+
+// Above the body there is room for the title and the legend.
+double head_of(const ScenePicture& picture) {
+  const std::size_t entries = (picture.materials.size() > 1 ? picture.materials.size() : 0) +
+                              (picture.base.empty() ? 0 : 1);
+  return std::max(100.0, first_entry + entry_height * static_cast<double>(entries));
+}
 
 // Colours by region: those of skin, muscle and bone, then others.
 constexpr std::array<Colour, 6> palette{{{236, 188, 160},
@@ -96,6 +104,7 @@ View fitting(const ScenePicture& picture, const SceneFrame& frame) {
   for (const SceneLabel& label : frame.labels) take(label.at, 0.0);
   Vec3 at = picture.touch;
   for (const Vec3& slide : picture.slides) take(at += slide, 0.0);
+  const double head = head_of(picture);
   view.scale = std::min((width - 2.0 * margin) / (most_right - left),
                         (height - head - foot) / (top - bottom));
   view.left = 0.5 * (left + most_right - width / view.scale);
@@ -181,14 +190,15 @@ std::string arrow(const Point& from, const Point& to, double reach,
 std::string slides(const ScenePicture& picture, const View& view) {
   std::string text;
   Vec3 at = picture.touch;
+  std::vector<std::string> lengths;  // where the last slide ends
   for (const Vec3& slide : picture.slides) {
-    const Vec3 next = at + slide;
-    const Point end = view(next);
-    text += arrow(view(at), end, 11.0, " stroke-dasharray=\"6 4\"") +
-            label({end.x + 8.0, end.y + 5.0}, halo, mm_text(slide.norm()));
-    at = next;
+    text += arrow(view(at), view(at + slide), 11.0, " stroke-dasharray=\"6 4\"");
+    at += slide;
+    lengths.push_back(mm_text(slide.norm()));
   }
-  return text;
+  if (lengths.empty()) return text;
+  const Point end = view(at);
+  return text + label({end.x + 8.0, end.y + 5.0}, halo, joined(lengths, ", "));
 }
 
 std::string finger(const ScenePicture& picture, const View& view) {
@@ -227,6 +237,9 @@ std::array<Vec3, 5> loaded_places(const ScenePicture& picture) {
 std::string load(const ScenePicture& picture, const View& view) {
   std::string text;
   Point label_at = view(loaded_places(picture).front());
+  for (const auto& face : picture.faces)  // above the body
+    for (const Vec3& corner : face.corners)
+      label_at.y = std::min(label_at.y, view(corner).y - 12.0);
   for (const Vec3& place : loaded_places(picture)) {
     const Point tip = view(place);
     text += arrow({tip.x, tip.y - 40.0}, {tip.x, tip.y - 2.0}, 10.0);
@@ -268,36 +281,59 @@ std::string lines(const std::vector<std::array<Vec3, 2>>& edges, const View& vie
   return path.empty() ? path : "<path d=\"" + path + "\" fill=\"none\"" + attributes + "/>\n";
 }
 
-// The edges of the box, behind the body, with the numbers along its axes.
-std::string box(const SceneFrame& frame, const View& view) {
-  std::string labels;
-  std::size_t number = 0;  // along its axis
-  for (const SceneLabel& one : frame.labels) {
-    const Point at = view(one.at);
-    const std::size_t unit = one.text.find(" (mm)");
-    const bool name = unit != std::string::npos;
-    // A narrow page, whose letters are larger, hides the unit and every second number.
-    const std::string more = " class=\"more\"";
-    std::string text =
-        label({at.x, at.y + 4.0}, !name && number % 2 == 1 ? more : "", one.text.substr(0, unit));
-    if (name) text.insert(text.rfind("</text>"), "<tspan" + more + "> (mm)</tspan>");
-    labels += text;
-    number = name ? 0 : number + 1;
+// Where centred texts stand, so that no further one is put over them.
+class Places {
+ public:
+  explicit Places(double letters) : letters_(letters) {}  // px, their height
+  // Whether a text has room; it takes it then.
+  bool take(const Point& at, const std::string& text) {
+    constexpr double wide = 0.3;  // half of a digit's width with its part of a blank, in heights
+    const double half = wide * letters_ * (static_cast<double>(text.size()) + 0.5);
+    for (const auto& [other, other_half] : taken_)
+      if (std::abs(at.x - other.x) < half + other_half && std::abs(at.y - other.y) < letters_)
+        return false;
+    taken_.emplace_back(at, half);
+    return true;
   }
-  return lines(frame.lines, view, " stroke=\"#9aa3ad\" stroke-width=\"0.8\"") +
+
+ private:
+  double letters_;
+  std::vector<std::pair<Point, double>> taken_;
+};
+
+// The edges of the box, behind the body, with the numbers along its axes. A narrow page, whose
+// letters are larger, hides the units and the numbers for which it has no room.
+std::string box(const SceneFrame& frame, const View& view) {
+  constexpr double letters = 12.0, narrow = 1.8 * letters;  // px; 1.8: the style of the page
+  Places wide_places(letters), narrow_places(narrow);
+  std::vector<SceneLabel> all = frame.labels;
+  const auto is_name = [](const SceneLabel& one) { return one.text.ends_with(" (mm)"); };
+  std::stable_partition(all.begin(), all.end(), is_name);  // which have the first choice
+  const std::string hidden = " class=\"more\"";
+  std::string labels;
+  for (const SceneLabel& one : all) {
+    const Point at = view(one.at);
+    if (!wide_places.take(at, one.text)) continue;
+    const std::string short_text = one.text.substr(0, one.text.find(' '));
+    const bool fits = narrow_places.take(at, short_text);
+    std::string text = label({at.x, at.y + 4.0}, fits ? "" : hidden, short_text);
+    if (is_name(one)) text.insert(text.rfind("</text>"), "<tspan" + hidden + "> (mm)</tspan>");
+    labels += text;
+  }
+  return lines(frame.lines, view, " stroke=\"#8b949e\" stroke-width=\"0.8\"") +
          "<g class=\"ink\" font-size=\"12\" fill=\"#444\" text-anchor=\"middle\">\n" + labels +
          "</g>\n";
 }
 
 std::string legend(const ScenePicture& picture) {
   std::string text;
-  double y = 70.0;
+  double y = first_entry;
   const auto entry = [&](const Colour& fill, const std::string& words) {
     text += "<rect x=\"" + px(margin) + "\" y=\"" + px(y - 10.0) +
             "\" width=\"12\" height=\"12\" fill=\"" + hex(fill, 1.0) +
             "\" stroke=\"#777\" stroke-width=\"0.6\"/>\n" +
             label({margin + 19.0, y}, " stroke=\"none\"", words);
-    y += 24.0;
+    y += entry_height;
   };
   for (std::size_t i = 0; picture.materials.size() > 1 && i < picture.materials.size(); ++i)
     entry(colour(static_cast<int>(i)),
@@ -603,7 +639,7 @@ std::string scene_script() {
         pen.moveTo(...flat(list.slice(i, i + 3))); pen.lineTo(...flat(list.slice(i + 3, i + 6))); }
       pen.stroke(); pen.lineWidth = 1;
     };
-    edges(scene.lines, "#9aa3ad", 1);
+    edges(scene.lines, "#8b949e", 1);
     for (const s of shapes) {
       pen.globalAlpha = s.alpha; pen.beginPath();
       if (s.centre) { pen.arc(s.centre[0], s.centre[1], s.radius, 0, 7); pen.fillStyle = "#aebccd";
@@ -614,8 +650,15 @@ std::string scene_script() {
     }
     edges(scene.border, now("--soft"), 1.5);
     pen.fillStyle = now("--ink"); pen.textAlign = "center"; pen.font = "12px sans-serif";
-    for (const [x, y, z, words] of scene.labels) {
-      const at = flat([x, y, z]); pen.fillText(words, at[0], at[1] + 4); }
+    pen.strokeStyle = now("--back"); pen.lineWidth = 3; pen.lineJoin = "round";
+    const taken = [];  // names first; a number for which there is no room is not drawn
+    for (const [x, y, z, words] of [...scene.labels].sort((p, q) => q[3].length - p[3].length)) {
+      const at = flat([x, y, z]), half = pen.measureText(words).width / 2 + 2;
+      if (taken.some(t => Math.abs(t[0] - at[0]) < t[2] + half && Math.abs(t[1] - at[1]) < 12))
+        continue;
+      taken.push([at[0], at[1], half]);
+      pen.strokeText(words, at[0], at[1] + 4); pen.fillText(words, at[0], at[1] + 4); }
+    pen.lineWidth = 1;
   };
   at("scene-turn").hidden = false;
   for (const id of ["scene-around", "scene-tilt"]) at(id).addEventListener("input", () => {

@@ -286,15 +286,17 @@ class Findings {
   // The estimates on which the choice of the model was based, and the force to compare them with.
   void predictions(const record::ContactRow& peak) {
     // Of a curved body without a coarse mesh, and of a depth without a table, nothing is known.
-    const bool layers = std::holds_alternative<scenario::Cuboid>(scene_.scenario.tissue.shape) ||
-                        std::holds_alternative<scenario::HalfSpace>(scene_.scenario.tissue.shape);
+    const auto& shape = scene_.scenario.tissue.shape;
+    const bool half_space = std::holds_alternative<scenario::HalfSpace>(shape);
+    const bool layers = half_space || std::holds_alternative<scenario::Cuboid>(shape);
+    const bool body = half_space || expected_.measured;
     const auto where = [](bool known, double value) {
       return known ? record::Cell(value) : record::Cell();
     };
     add("thickness_effect", where(layers, expected_.thickness));
-    add("side_effect", where(layers, expected_.sides));
-    add("body_effect", where(layers || expected_.measured, expected_.size));
-    add("edge_effect", expected_.edge);
+    add("side_effect", where(layers && body, expected_.sides));
+    add("body_effect", where(body, expected_.size));
+    add("edge_effect", where(expected_.contact_radius > 0.0, expected_.edge));
     add("deep_effect", where(expected_.depth_ratio.has_value(), expected_.deep));
     add("viscous_effect", expected_.viscous);
     add("inertia_effect", expected_.inertia);

@@ -220,7 +220,7 @@ std::string agreement(const stability::StabilityMap& map) {
                     "' title '" + curve.label + "'");
   }
   return panel(map, "model", Scale::logarithmic, "Every model and damping", "limit by theory, µs") +
-         "set key at screen 0.54, screen 0.975 center top vertical maxrows 1 Left reverse samplen "
+         "set key at screen 0.52, screen 0.975 center top vertical maxrows 1 Left reverse samplen "
          "1 "
          "font ',13'\n"
          "plot \\\n  " +
@@ -292,6 +292,7 @@ plot::Sheet stability_sheet(const std::string& title, const stability::Stability
              "contact stiffness, N/m");
   text += panel(map, "device_damping_N_s_per_m", Scale::logarithmic, "Haptic frame",
                 "device damping, N s/m") +
+          "set rmargin at screen 0.975\n" +  // the last panel, below two
           curves(map, device, "device_damping_N_s_per_m");
   text += strip() + "\nunset multiplot\n";
   return {.name = "stability", .script = text, .reads = {"stability.csv", "failures.csv"}};

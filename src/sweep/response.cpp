@@ -263,7 +263,7 @@ std::string map(const Response& response) {
       (response.logarithmic ? plot::gnuplot_logarithmic("cb", values.low, values.high) : "") +
       scale_of_one("cb", response) + "set cblabel " +
       plot::gnuplot_quoted(output_label(response.output)) + " offset 0.2,0\n" +
-      "set colorbox user origin screen 0.82,0.565 size screen 0.028,0.365\n"
+      "set colorbox user origin screen 0.803,0.565 size screen 0.028,0.365\n"
       "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.6,0.4\n" +
       // Edges of SVG are crisp; in other pictures the background would shine through between cells.
       "border = format eq 'svg' ? 'noborder' : 'border linewidth 0.4'\n" +
@@ -297,15 +297,19 @@ std::vector<std::size_t> chosen(std::size_t count) {
   return all;
 }
 
-// The legend is narrower than an axis: a long name goes without its unit, and then without its
-// first words.
-std::string narrow_label(const FactorChoice& factor) {
+// The title of the legend, which is narrower than an axis: a long name goes without its first
+// words, and has its unit on a second line.
+std::string narrow_title(const FactorChoice& factor) {
   std::string label = factor_label(factor);
   constexpr std::size_t most = 15;  // letters
-  if (label.size() > most) label.erase(std::min(label.find(" ("), label.size()));
+  if (label.size() <= most) return plot::gnuplot_quoted(label);
+  const std::size_t end = std::min(label.find(" ("), label.size());
+  const std::string unit = label.substr(end);
+  label.erase(end);
   while (label.size() > most && label.find(' ') != std::string::npos)
     label.erase(0, label.find(' ') + 1);
-  return label;
+  return plot::gnuplot_quoted(label) +
+         (unit.empty() ? "" : ".\"\\n\"." + plot::gnuplot_quoted(unit.substr(1)));
 }
 
 std::string curve_plots(const Response& response) {
@@ -320,10 +324,9 @@ std::string curve_plots(const Response& response) {
             rounded_text(range.low / 1.15, 4) + ":" + rounded_text(range.high * 1.15, 4) + "]\n";
   }
   text += scale_of_one("y", response) + "set ylabel " +
-          plot::gnuplot_quoted(output_label(response.output)) + "\n";
+          plot::gnuplot_quoted(output_label(response.output)) + " offset -0.6,0\n";
   if (response.along)
-    text += "set key title " + plot::gnuplot_quoted(narrow_label(*response.along)) +
-            " left font ',12'\n";
+    text += "set key title " + narrow_title(*response.along) + " left font ',12'\n";
   std::vector<std::string> plots;
   for (const std::size_t j : chosen(count)) {
     if (!std::isfinite(ends({&grid.values[j * width], width}).low)) continue;  // gnuplot complains
@@ -361,19 +364,19 @@ plot::Sheet response_sheet(const Response& response) {
   if (both) {
     const Lines lines = lines_of(response);
     if (!lines.segments.empty()) text += data_of_lines(response, lines);
-    text += "set multiplot\nset lmargin at screen 0.165\nset rmargin at screen 0.785\nset title " +
+    text += "set multiplot\nset lmargin at screen 0.19\nset rmargin at screen 0.77\nset title " +
             title + "\nset tmargin at screen 0.93\nset bmargin at screen 0.565\n" + label +
             map(response) +
             "unset title\nset tmargin at screen 0.45\nset bmargin at screen 0.1\n"
-            "set key at screen 0.805, screen 0.45 left top Left reverse font ',13' samplen 1.6 "
+            "set key at screen 0.787, screen 0.45 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curve_plots(response) + "unset multiplot\n";
   } else {
     const Ends range = ends(response.grid.x);
-    text += "set lmargin at screen 0.165\nset rmargin at screen 0.785\nset title " + title + "\n" +
+    text += "set lmargin at screen 0.19\nset rmargin at screen 0.77\nset title " + title + "\n" +
             label + axis("x", response.across, range.low, range.high) +
-            "set key at screen 0.805, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
+            "set key at screen 0.787, screen 0.85 left top Left reverse font ',13' samplen 1.6 "
             "spacing 1.15\n"
             "set grid linetype 1 linewidth 0.6 linecolor rgb '#dcdcdc'\n" +
             curve_plots(response);
@@ -646,7 +649,7 @@ std::string extremes(const SweepColumns& columns, const OutputColumn& output) {
     return static_cast<std::size_t>(std::find(output.values.begin(), output.values.end(), value) -
                                     output.values.begin());
   };
-  return "Least in " + case_text(columns, at(range.low)) + ", largest in " +
+  return "Smallest in " + case_text(columns, at(range.low)) + ", largest in " +
          case_text(columns, at(range.high)) + ".";
 }
 

@@ -46,6 +46,8 @@ TEST(Text, AnErrorAboveTheWholeHasNoDigits) {
 TEST(Text, ALabelWithinASentenceBeginsSmallUnlessItIsASymbol) {
   EXPECT_EQ(within_sentence("Displacement (mm)"), "displacement (mm)");
   EXPECT_EQ(within_sentence("E (kPa)"), "E (kPa)");
+  EXPECT_EQ(within_sentence("Young's modulus (kPa)"), "Young's modulus (kPa)");
+  EXPECT_EQ(within_sentence("Region 1 Young's modulus"), "region 1 Young's modulus");
   EXPECT_EQ(within_sentence("tissue.young_modulus (kPa)"), "tissue.young_modulus (kPa)");
 }
 

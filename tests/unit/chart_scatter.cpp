@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include "scenario/integrators.h"
+#include "scenario/model_traits.h"
 
 namespace palpate::chart {
 namespace {
@@ -14,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const csv =
-    "case,model,integrator,status,claimed_error,cost_us_per_ms,cost_min_us_per_ms,"
+    "case,model,integrator,status,shown_error,cost_us_per_ms,cost_min_us_per_ms,"
     "cost_max_us_per_ms,pareto,knee,auto,settings,note\n"
     "a,hertz,,measured,0.2,1,0.9,1.2,1,0,0,solver.model=hertz,\n"
     "a,layer,,measured,0.02,2,1.9,2.2,1,1,1,,\n"
@@ -62,6 +66,24 @@ TEST_F(ScatterDrawn, DrawsWithoutAWord) {
                             "tolerance", "own error", "mass_spring", "no mesh", "modal"})
     EXPECT_NE(svg.find(shown), std::string::npos) << shown;
   EXPECT_EQ(svg.find("coupled_springs"), std::string::npos) << "of the other case";
+}
+
+// gnuplot drops the entries for which it has no room.
+TEST_F(ScatterDrawn, TheKeyHasEveryModelAndIntegrator) {
+  Scatter many = scatter();
+  for (const scenario::ModelTraits& model : scenario::model_table)
+    if (std::find(many.models.begin(), many.models.end(), model.word) == many.models.end())
+      many.models.emplace_back(model.word);
+  many.integrators = {""};
+  for (const auto& integrator : scenario::integrator_table)
+    many.integrators.emplace_back(integrator.word);
+  EXPECT_EQ(plot::draw(scatter_sheet(many), folder_.string()).warning, "");
+  const std::string svg = picture();
+  std::vector<std::string> entries{"Pareto front", "knee", "taken by auto", "no mesh"};
+  entries.insert(entries.end(), many.models.begin(), many.models.end());
+  entries.insert(entries.end(), many.integrators.begin() + 1, many.integrators.end());
+  for (const std::string& entry : entries)
+    EXPECT_NE(svg.find(">" + entry + "<"), std::string::npos) << entry;
 }
 
 TEST_F(ScatterDrawn, TheFrontsLineIsNotBrokenByOtherRows) {

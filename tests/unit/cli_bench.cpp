@@ -56,6 +56,26 @@ TEST_F(BenchVerb, RowsAreWholeAndOrdered) {
   EXPECT_TRUE(row["paper_sum_ms"].is_null());
 }
 
+// The whole frame and the stages are timed apart: the page says both, and why they differ.
+TEST_F(BenchVerb, ThePageNamesTheFrameAndTheSumOfItsStages) {
+  const Ended ended =
+      bench(bench_press(""), {"--frames", "5", "--csv", "--report", "frames/page.html"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  write_file(folder_ / "times.csv", ended.out);
+  const record::Table times = record::read_csv((folder_ / "times.csv").string());
+  const auto shown = [&](const char* column) {
+    const auto at = static_cast<std::size_t>(times.find(column));
+    return rounded_text(std::get<double>(times.rows.front()[at]), 3) + " ms";
+  };
+  const std::string headline = headline_of(folder_ / "frames/page.html");
+  EXPECT_TRUE(headline.starts_with(shown("frame_p50_ms") + " for the slowest whole frame"))
+      << headline;
+  EXPECT_NE(headline.find("sum to " + shown("sum_p50_ms")), std::string::npos) << headline;
+  const std::string page = read_file(folder_ / "frames/page.html");
+  EXPECT_NE(page.find("on a second mesh"), std::string::npos);
+  EXPECT_EQ(page.find("class=\"wide many\""), std::string::npos) << "more than eight columns";
+}
+
 TEST_F(BenchVerb, TheForceIsTheRunsForce) {
   // `consistent` and `one_way` follow the finger alone, so that the speed does not matter.
   for (const std::string more :

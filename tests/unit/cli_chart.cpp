@@ -92,7 +92,7 @@ TEST_F(ChartVerb, ErrorsAreTheSameTwice) {
   ASSERT_EQ(chart(creep, {"--force"}).code, 0);
   const record::Table second = table();
   for (const char* name : {"variant", "status", "greatest_error", "end_error", "rms_error",
-                           "claimed_error", "greatest_time_error", "reference_error", "note"})
+                           "shown_error", "greatest_time_error", "reference_error", "note"})
     EXPECT_EQ(column(first, name), column(second, name)) << name;
 }
 

@@ -144,9 +144,11 @@ TEST_F(CompareVerb, columns_and_rows_too_few_and_too_many) {
   expect(compare("case,a_mm,b\nskin,1,0\nskin,2,0\nskin,4,0\n", base_), 3,
          "DIFFERS in 1 of 3 columns, in b\nb: DIFFERS, the column is not wanted\n");
   expect(compare("case,a_mm\nskin,1\n", base_), 3,
-         "DIFFERS in 0 of 2 columns, in the number of rows\nrows: DIFFERS, got 1, want 3\n");
+         "DIFFERS in 0 of 2 columns, in the number of rows\nrows: DIFFERS, got 1, want 3; "
+         "compared: the first 1\n");
   expect(compare(base_ + "skin,5\n", base_), 3,
-         "DIFFERS in 0 of 2 columns, in the number of rows\nrows: DIFFERS, got 4, want 3\n");
+         "DIFFERS in 0 of 2 columns, in the number of rows\nrows: DIFFERS, got 4, want 3; "
+         "compared: the first 3\n");
 }
 
 TEST_F(CompareVerb, what_is_no_number) {

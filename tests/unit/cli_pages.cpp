@@ -55,6 +55,17 @@ TEST(Pages, AnIndexSaysHowLongARunTook) {
   EXPECT_EQ(index.find("It took"), index.rfind("It took")) << "b has no times";
 }
 
+// Results with one title are told apart by their folders, not by the names of their pages.
+TEST(Pages, AnIndexTellsEqualTitlesApart) {
+  const TemporaryFolder folder;
+  for (const char* name : {"out/a/r", "out/b/r"})
+    write_file(folder / name / "report.html", "<title>A press – palpate run</title>\n");
+  ASSERT_EQ(palpate(folder.path(), {"open", "out"}).code, 0);
+  const std::string index = read_file(folder / "out/index.html");
+  for (const char* heading : {">A press</a>", ">A press (b/r)</a>"})
+    EXPECT_NE(index.find(heading), std::string::npos) << heading << index;
+}
+
 // A folder's name is no scheme: a page opens where the link of the index says. A link to itself, of
 // which nobody can say what it is, is no report.
 TEST(Pages, AnIndexHasLinksToFoldersOfAnyName) {

@@ -56,12 +56,24 @@ TEST_F(ReportPages, OpenWithoutAFault) {
   ASSERT_EQ(sweep({"run", "out/s_sweep"}).code, 0);
   ASSERT_EQ(sweep({"merge", "out/s_sweep"}).code, 0);
   make({"compare", "out/press", "out/press", "--report", "out/compared/report.html"});
+  write_file(
+      folder_ / "slide.toml",
+      "[tissue]\n[[region]]\nkind = \"sphere\"\ncentre = [\"30 mm\", \"30 mm\", \"20 mm\"]\n"
+      "radius = \"5 mm\"\nmaterial = \"muscle\"\n[contact]\nfriction = 0.3\n"
+      "[finger]\nx = \"20 mm\"\n[solver]\nmodel = \"mass_spring\"\n"
+      "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n"
+      "[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n[output]\ninterval = \"100 ms\"\n[sweep]\n"
+      "\"finger.spheres\" = [1, 8]\n");
+  make({"run", "slide.toml"});
+  make({"chart", "--frames", "5", "--report", "out/frames/report.html"});
   make({"open", "out"});
   const std::vector<std::string> pages{"out/press/report.html",
                                        "out/creep/report.html",
                                        "out/found_identified/report.html",
                                        "out/s_sweep/merged/report.html",
                                        "out/compared/report.html",
+                                       "out/slide/report.html",
+                                       "out/frames/report.html",
                                        "out/index.html"};
   for (const Scheme scheme : {Scheme::light, Scheme::dark})
     EXPECT_EQ(faults_of_pages(folder_.path(), pages, scheme), std::vector<std::string>{});
@@ -74,11 +86,16 @@ TEST_F(ReportPages, TheInspectorFindsFaults) {
       "background:#ffffff\">pale<a href=\"#b\">b</a><a href=c.csv>c</a><img src=d.png>"
       "<div style=\"width:500px\">wide</div><div class=wide style=\"width:20px;overflow:auto\">"
       "abcdefghijkl</div><div class=plot><svg aria-label=x><path d=\"M0 0L9 9\" "
-      "stroke=\"#b4b4b4\"/></svg></div></main><script>nothing()</script></body></html>");
+      "stroke=\"#b4b4b4\"/><text y=9>under</text><text y=9>over</text></svg></div>"
+      "<table><caption>hash</caption><tr><td>"
+      "0123456789012345678901234567890123456789012345678901234567890123456789"
+      "0123456789012345678901234567890123456789</td></tr></table></main><script>nothing()</"
+      "script></body></html>");
   const auto faults = faults_of_pages(folder_.path(), {"bad.html"}, Scheme::light);
   for (const char* fault :
        {"CONSOLE", "id a twice", "no place #b", "c.csv", "loads d.png", "without words", "px wide",
-        "contrast of 2.32", "cut at 390", "with 2.07 to 1"})
+        "contrast of 2.32", "cut at 390", "with 2.07 to 1", "is cut on paper: hash",
+        "has over over under in a figure at 360"})
     EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [&](const auto& one) {
       return one.find(fault) != std::string::npos;
     })) << fault;

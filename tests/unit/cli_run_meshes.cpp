@@ -381,6 +381,12 @@ TEST_F(RunMeshes, rings_are_left_unread_without_a_mesh) {
   const Ended ended = run(hertz + "rings = 3\n");
   EXPECT_EQ(ended.code, 0) << ended.signal << ended.err;
   EXPECT_NE(ended.err.find("note: press.toml:7:1: `rings` is left unread"), std::string::npos);
+  // A note is no error: `explain` has it without a colour, and not where only errors are wanted.
+  const auto explained = [&](const Words& more) {
+    return palpate(folder_.path(), {"explain", "press.toml"}, more).err;
+  };
+  EXPECT_TRUE(explained({}).starts_with("note: press.toml:7:1: `rings` is left unread"));
+  EXPECT_EQ(explained({"--quiet"}), "");
 }
 
 TEST_F(RunMeshes, tissue_that_conforms_to_the_finger_diverges) {

@@ -40,7 +40,7 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   EXPECT_NE(headline_of(page).find(" % (tolerance 5 %), not"), std::string::npos)
       << headline_of(page);
   EXPECT_TRUE(headline_of(page).ends_with(", not counting viscosity")) << headline_of(page);
-  for (const char* line : {"<p>Least in case ", "<p>Model: hertz in 6 of 6 cases.</p>",
+  for (const char* line : {"<p>Smallest in case ", "<p>Model: hertz in 6 of 6 cases.</p>",
                            "<p>Neglected in 6 of 6 cases", "<p>6 of 6 cases completed, 0 failed"})
     EXPECT_NE(read_file(page).find(line), std::string::npos) << line;
   const std::string picture = "picture: <a href=\"";

@@ -37,7 +37,7 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
        {"<caption>Forces</caption>", "<th scope=\"col\" class=\"number\">force</th>",
         "<th scope=\"col\">case</th>", "<th scope=\"row\">a</th>",
         "<td data-column=\"force\" class=\"number\">1.235</td>",
-        "<td data-column=\"force\">–</td>"})
+        "<td data-column=\"force\" class=\"none\">–</td>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(table("n", {{"a", "b"}, {{"x", INFINITY}}}).html().find("inf"), std::string::npos);
   const record::Table long_one{{"n"}, {{1.0}, {2.0}, {3.0}}};
@@ -56,6 +56,46 @@ TEST(Html, NamesKeepTheirCaseAtTheStartOfASentence) {
   EXPECT_EQ(paragraphs({"done."}).html(), "<p>Done.</p>");
 }
 
+// A hash may be broken anywhere, a sentence between its words.
+TEST(Html, OneLongWordDoesNotWidenItsTable) {
+  const auto cell = [](const std::string& content) {
+    return table("t", {{"a", "b"}, {{record::Cell("x"), record::Cell(content)}}}).html();
+  };
+  EXPECT_NE(cell(std::string(64, 'f')).find("class=\"long\""), std::string::npos);
+  EXPECT_NE(cell(std::string(40, 'f') + " " + std::string(20, 'f')).find("class=\"words\""),
+            std::string::npos);
+  EXPECT_NE(std::string(style()).find(".long { overflow-wrap: anywhere; }"), std::string::npos);
+}
+
+// No line ends between a number and its unit, and none between a value and its `±`.
+TEST(Page, TheHeadlineKeepsItsNumbersTogether) {
+  const auto headline = [](const std::string& value, const std::string& error,
+                           Page::Tone tone = Page::Tone::result) {
+    Page page("t", "run");
+    page.headline(value, error, tone);
+    const std::string html = page.html(), begin = "\">", start = "<p class=\"big";
+    const std::size_t from = html.find(begin, html.find(start)) + begin.size();
+    return html.substr(from, html.find("</p>", from) - from);
+  };
+  EXPECT_EQ(headline("Peak force 1.17 N", "± 2.5 %, not counting viscosity"),
+            "Peak force 1.17\u00a0N\u00a0<span>±\u00a02.5\u00a0%, not counting viscosity</span>");
+  EXPECT_EQ(headline("3 %", "largest"), "3\u00a0% <span>largest</span>");
+  EXPECT_EQ(headline("Diverged", "energy grew", Page::Tone::failure),
+            "Diverged: <span>energy grew</span>");
+}
+
+// A comparison's page stands alone; that of a run stands beside its tables.
+TEST(Page, ItsFootNamesFilesWhereThereAreSome) {
+  const std::string foot = "Everything on this page is in the files beside it.";
+  EXPECT_EQ(Page("t", "comparison").html().find(foot), std::string::npos);
+  EXPECT_NE(Page("t", "run").html(Page::Files::beside).find(foot), std::string::npos);
+  const test::TemporaryFolder place;
+  WholeFolder folder((place / "out").string(), "result", Replace::incomplete);
+  folder.open();
+  write(Page("t", "run"), folder);
+  EXPECT_NE(read_text(folder.file(file_name)).find(foot), std::string::npos);
+}
+
 // The dark inverts lines, texts and grounds, but no areas whose colours stand for numbers.
 TEST(Page, ColoursOfNumbersAreNotInverted) {
   const test::TemporaryFolder folder;
@@ -69,13 +109,17 @@ TEST(Page, ColoursOfNumbersAreNotInverted) {
   EXPECT_NE(css.find(".plot svg { filter: invert("), std::string::npos);
 }
 
-// On paper nothing can be opened, and more than eight columns do not stand side by side.
+// On paper nothing can be opened. More than eight columns do not stand side by side, there and on
+// the widest screen.
 TEST(Page, PrintsWhatIsFoldedAndWideTablesRowByRow) {
   const std::string css = style(), print = css.substr(css.find("@media print"));
   EXPECT_NE(print.find("details::details-content { content-visibility: visible;"),
             std::string::npos);
   EXPECT_EQ(print.find("details:not([open])"), std::string::npos);
-  EXPECT_NE(print.find(".many td { display: inline-block;"), std::string::npos);
+  EXPECT_NE(css.find("\n.many td { display: inline-block;"), std::string::npos);
+  EXPECT_NE(css.find(".many .none { display: none; }"), std::string::npos)
+      << "row by row a missing value needs no place";
+  EXPECT_NE(print.find(".words { min-width: 0; }"), std::string::npos);
   record::Table wide{{}, {{}}};
   for (int i = 0; i < 9; ++i) {
     EXPECT_EQ(table("t", wide).html().find("many"), std::string::npos) << i;

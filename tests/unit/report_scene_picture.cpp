@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 
 namespace palpate::report {
 namespace {
@@ -173,15 +174,62 @@ TEST(ScenePicture, numbers_of_an_axis_keep_apart) {
   EXPECT_LT(fewest, 3U) << "no axis of these was seen from its end";
 }
 
-// A narrow page, where letters are larger beside the body, hides every second number and the unit.
-TEST(ScenePicture, every_second_number_of_an_axis_can_be_hidden) {
-  const std::string svg = scene_svg(flat(), "");  // x and y 0 to 20 mm
-  for (const char* shown : {">0<", ">10<", ">20<", ">x<", ">y<"}) {
-    EXPECT_GT(occurrences(svg, shown), 0U) << shown;
-    EXPECT_EQ(occurrences(svg, std::string(" class=\"more\"") + shown), 0U) << shown;
+// The centred texts along the axes with their places, and whether a narrow page hides them.
+struct Shown {
+  double x, y;
+  std::string text;
+  bool hidden;
+};
+std::vector<Shown> along_axes(const std::string& svg) {
+  std::vector<Shown> all;
+  const std::size_t from = svg.find("text-anchor=\"middle\">"), end = svg.find("</g>", from);
+  for (std::size_t at = svg.find("<text", from); at < end; at = svg.find("<text", at + 1)) {
+    const std::string one = svg.substr(at, svg.find("</text>", at) - at);
+    const auto number_after = [&](const std::string& word) {
+      return std::stod(one.substr(one.find(word) + word.size()));
+    };
+    std::string words = one.substr(one.find('>') + 1);
+    words.erase(std::min(words.find('<'), words.size()));
+    all.push_back({number_after(" x=\""), number_after(" y=\""), words,
+                   one.find("class=\"more\"") < one.find('>')});
   }
-  for (const char* hidden : {">5<", ">15<", "> (mm)<"})
-    EXPECT_EQ(occurrences(svg, std::string(" class=\"more\"") + hidden), 2U) << hidden;
+  return all;
+}
+
+// Wherever an axis lies, no text along it stands over another: not with letters of 12 px, and of
+// those that a narrow page shows, with letters 1.8 times as large.
+TEST(ScenePicture, texts_along_the_axes_keep_apart) {
+  for (int turn = 0; turn < 36; ++turn) {
+    ScenePicture picture = flat();
+    add_flat(picture, 0.01, 0, -1);
+    for (auto& face : picture.faces)  // about the middle, so that numbers have signs
+      for (Vec3& corner : face.corners) corner -= Vec3(0.01, 0.01, 0.005);
+    picture.axes = Eigen::AngleAxisd(10.0 * turn * M_PI / 180.0, Vec3(1, 2, 3).normalized())
+                       .toRotationMatrix();
+    const std::vector<Shown> all = along_axes(scene_svg(picture, ""));
+    EXPECT_GE(all.size(), 6U) << turn;
+    for (const bool narrow : {false, true})
+      for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+          if (narrow && (all[i].hidden || all[k].hidden)) continue;
+          const double letters = narrow ? 1.8 * 12.0 : 12.0;
+          // A digit of the usual fonts is 0.56 to 0.64 of their size wide.
+          const auto half = [&](const Shown& one) {
+            return 0.5 * 0.56 * letters * static_cast<double>(one.text.size());
+          };
+          EXPECT_FALSE(std::abs(all[i].x - all[k].x) < half(all[i]) + half(all[k]) &&
+                       std::abs(all[i].y - all[k].y) < 0.9 * letters)
+              << turn << ": " << all[i].text << " over " << all[k].text
+              << (narrow ? ", narrow" : "");
+        }
+  }
+  // x, y and their ends are there on a narrow page; the units are not.
+  const std::string svg = scene_svg(flat(), "");
+  std::string narrow;
+  for (const Shown& one : along_axes(svg)) narrow += one.hidden ? "" : one.text + " ";
+  for (const char* shown : {"x ", "y ", "0 ", "10 ", "20 "})
+    EXPECT_NE(narrow.find(shown), std::string::npos) << shown << "is not in " << narrow;
+  EXPECT_EQ(occurrences(svg, "<tspan class=\"more\"> (mm)<"), 2U);
 }
 
 // The number beside the arrow stays readable where it stands before the body.
@@ -213,8 +261,7 @@ TEST(ScenePicture, follows_slides_one_after_the_other) {
   picture.slides = {{0.01, 0.0, 0.0}, {0.0, 0.02, 0.0}};
   const std::string svg = scene_svg(picture, "");
   EXPECT_EQ(occurrences(svg, "stroke-dasharray"), 2U);
-  EXPECT_EQ(occurrences(svg, ">10 mm<"), 1U);
-  EXPECT_EQ(occurrences(svg, ">20 mm<"), 1U);
+  EXPECT_EQ(occurrences(svg, ">10 mm, 20 mm<"), 1U) << "both where the last one ends";
 }
 
 // Between plates there is no finger: five arrows stand on the top, with what they are.
@@ -229,6 +276,16 @@ TEST(ScenePicture, shows_the_load_between_plates) {
             occurrences(without, "z\" stroke=\"none\"") + 5U);
   EXPECT_NE(scene_view(picture, "").html().find("the arrows are the load, 1 kPa."),
             std::string::npos);
+  // Its words stand above the body: above the highest corner of its faces.
+  const std::size_t end = svg.find(">1 kPa<"), begin = svg.rfind("<text", end);
+  const double words = std::stod(svg.substr(svg.find(" y=\"", begin) + 4));
+  const std::size_t faces = svg.find("<path fill=\"#");
+  const std::string path = svg.substr(svg.find(" d=\"", faces), svg.find("/>", faces) - faces);
+  const std::regex pair("([-0-9.]+) ([-0-9.]+)");
+  double top = INFINITY;
+  for (std::sregex_iterator at(path.begin(), path.end(), pair), none; at != none; ++at)
+    top = std::min(top, std::stod((*at)[2]));
+  EXPECT_LT(words, top);
 }
 
 // The page gives ground and ink, which it finds by these classes.

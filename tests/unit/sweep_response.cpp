@@ -110,6 +110,33 @@ TEST(Response, OfWordsHasACurveForEach) {
             "1,skin,1\n2,skin,\n3,skin,3\n1,bone's,4\n2,bone's,5\n3,bone's,6\n");
 }
 
+// The legend beside the curves has the unit of its factor, on a line of its own if the name is
+// long.
+TEST(Response, TheLegendOfTheSecondPanelHasItsUnit) {
+  sweep::SweepColumns columns = grid();
+  std::swap(columns.factors[0], columns.factors[1]);
+  columns.factors[0].choice.levels = 3;  // of twelve cases, sorted by the new first factor
+  columns.factors[1].choice.levels = 4;
+  for (std::size_t i = 0; i < 12; ++i) {
+    columns.factors[0].values[i] = 0.1 * static_cast<double>(i / 4 + 1);
+    columns.factors[1].values[i] = 10.0 * static_cast<double>(i % 4 + 1);
+  }
+  const auto made = response(columns, columns.outputs[0], "A sweep");
+  ASSERT_TRUE(made && made->along);
+  EXPECT_NE(
+      response_sheet(*made).script.find("set key title 'Young''s modulus'.\"\\n\".'(kPa)' left"),
+      std::string::npos)
+      << response_sheet(*made).script;
+  columns.factors[1] = number_factor("step.1.to", "mm", Scale::linear);
+  columns.factors[1].choice.levels = 4;
+  columns.factors[1].values = {1, 2, 3, 4, 1, 2, 3, 4, 1, 2, 3, 4};
+  const auto short_one = response(columns, columns.outputs[0], "A sweep");
+  ASSERT_TRUE(short_one);
+  EXPECT_NE(response_sheet(*short_one).script.find("set key title 'Step 1 to (mm)' left"),
+            std::string::npos)
+      << response_sheet(*short_one).script;
+}
+
 TEST(Response, OfThreeFactorsTakesTheMiddleOfTheThirdAndSaysSo) {
   auto columns = grid();
   // The same again for a third factor that varies slowest, each level 1000 higher.
