@@ -12,7 +12,7 @@
 #include "plain_springs.h"
 #include "test_surfaces.h"
 #include "tissue/coupled.h"
-#include "tissue/springs.h"
+#include "tissue/network.h"
 #include "tissue/stiffness.h"
 
 namespace palpate::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/layer_integral.h"
+#include "contact/layer.h"
 
 namespace palpate::test {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plain_springs.h"
-#include "tissue/springs.h"
+#include "tissue/network.h"
 #include "tissue/viscous.h"
 
 namespace palpate::test {

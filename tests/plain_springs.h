@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "tissue/springs.h"
+#include "tissue/network.h"
 
 namespace palpate::test {
 

@@ -37,28 +37,15 @@ Clock::time_point after(double seconds) {
 }
 
 // A pipe that no other child inherits; its ends are closed with it.
-class Pipe {
- public:
+struct Pipe {
   Pipe() {
-    if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
       throw SystemError(std::string("no pipe can be made: ") + std::strerror(errno));
+    reads = ends[0];
+    writes = ends[1];
   }
-  ~Pipe() {
-    for (const int end : ends_)
-      if (end >= 0) ::close(end);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  [[nodiscard]] int reads() const { return ends_[0]; }
-  [[nodiscard]] int writes() const { return ends_[1]; }
-  void close_writing() {
-    ::close(ends_[1]);
-    ends_[1] = -1;
-  }
-
- private:
-  std::array<int, 2> ends_{};
+  Descriptor reads, writes;
 };
 
 // Reads until the other end is closed. Returns false if `end` or a stop comes first, or where
@@ -100,10 +87,10 @@ int wait_for(pid_t child, pid_t whom, Clock::time_point end, bool& in_time) {
 // What a child that has been started writes, and how it ends.
 ChildResult follow(Pipe& pipe, pid_t child, bool with_its_group, Clock::time_point end,
                    std::size_t most, const std::string& name) {
-  pipe.close_writing();
+  pipe.writes = {};
   ChildResult result;
   int error = 0;
-  bool in_time = drain(pipe.reads(), end, most, result.output, error);
+  bool in_time = drain(pipe.reads, end, most, result.output, error);
   const int status = wait_for(child, with_its_group ? -child : child, end, in_time);
   if (error != 0)
     throw SystemError("the output of " + name + " cannot be read: " + std::strerror(error));
@@ -192,7 +179,7 @@ ChildResult run_process(const Command& command) {
   const auto end = after(command.limit);
   const std::string name = "`" + command.argv[0] + "`";
   pid_t child = 0;
-  const Setup setup(pipe.writes(), command.folder);
+  const Setup setup(pipe.writes, command.folder);
   const int error =
       ::posix_spawnp(&child, argv[0], &setup.actions, &setup.attributes, argv.data(), environ);
   if (error == ENOENT || error == EACCES) return {.end = ChildResult::End::not_found};
@@ -205,7 +192,7 @@ ChildResult run_in_child(const std::function<std::string()>& work, const ChildLi
   const double before = address_space();
   Pipe pipe;
   const pid_t child = ::fork();
-  if (child == 0) live(pipe.writes(), work, limits, before);
+  if (child == 0) live(pipe.writes, work, limits, before);
   if (child < 0) throw SystemError(std::string("no child process: ") + std::strerror(errno));
   ChildResult result = follow(pipe, child, false, end, std::string::npos, "a child process");
   if (result.end == ChildResult::End::stopped) throw Stopped();

@@ -6,11 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "base/error.h"
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
@@ -161,24 +157,6 @@ std::size_t first_binary_byte(std::string_view text) {
     return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f;
   };
   return as_index(std::find_if(text.begin(), text.end(), binary) - text.begin());
-}
-
-// The offset of the first byte that does not start a UTF-8 character, or the text's size.
-std::size_t first_broken_character(std::string_view text) {
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const auto lead = static_cast<unsigned char>(text[at]);
-    const std::size_t size = lead < 0x80   ? 1
-                             : lead < 0xc2 ? 0
-                             : lead < 0xe0 ? 2
-                             : lead < 0xf0 ? 3
-                                           : 4;
-    if (size == 0 || lead > 0xf4 || at + size > text.size()) return at;
-    for (std::size_t i = 1; i < size; ++i)
-      if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return at;
-    at += size;
-  }
-  return at;
 }
 
 // Keys of more words, and deeper lists, occur in no document of ours. The parser and what follows

@@ -1,5 +1,5 @@
 // The single list of a struct's keys. A struct's function `fields(FieldVisitor&, Struct&)` names
-// every key once; visitors read the keys, write the resolved echo and write the manual.
+// every key once; visitors read the keys from a TOML tree, write the resolved echo and the manual.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,14 @@
 #include <variant>
 #include <vector>
 
+#include "base/document.h"
 #include "base/units.h"
 #include "base/words.h"
 
 namespace palpate {
 
-// When a key has an effect. If a key that has none is given, this is an error or, for settings that
-// the chosen model does not need, a note.
+// When a key has an effect. If a key that has none is given, this is an error or, for settings
+// that the chosen model does not need, a note.
 struct Use {
   enum class Otherwise { error, note };
   bool used = true;
@@ -165,5 +166,47 @@ class FieldVisitor {
     value = any.value_or(value);
   }
 };
+
+// A key that is given but has no effect. It is also reported as a note or as a problem.
+struct Unread {
+  std::string path;  // dotted, such as `solver.rings`; entries of lists count from 1
+  std::string when;  // when the key would be used
+};
+
+struct Reading {
+  std::vector<Problem> problems;  // errors
+  std::vector<Problem> notes;     // keys that the chosen model does not use
+  std::vector<Unread> unread;     // all keys that have no effect
+};
+
+// Reads all of `root` into the fields. Whether a key is used may depend on keys that come later
+// or are in other tables. Therefore a first pass reads the values, and a second pass reads them
+// again and reports unknown keys and wrong types, dimensions and ranges. A field that holds one
+// value is unchanged if its value is wrong.
+[[nodiscard]] Reading read_fields(const Node& root, const Fields& fields);
+
+// What stands before the bounds of a range; `equal` where the range has a single value.
+struct RangeWords {
+  const char* at_least = "at least ";
+  const char* above = "above ";
+  const char* at_most = "at most ";
+  const char* below = "below ";
+  const char* equal = "";
+};
+
+// Why a table has no such key, and why a value is none of the words that its key may have.
+[[nodiscard]] std::string no_key_text(const std::string& key, std::span<const std::string> known);
+[[nodiscard]] std::string no_word_text(const std::string& key, const Node& node,
+                                       std::span<const std::string> known);
+
+// Such as "above 0 kPa and below 3 kPa". `unit` is the unit of the key, or null for a pure
+// number.
+[[nodiscard]] std::string range_text(const Range& range, const Unit* unit,
+                                     const RangeWords& words = {});
+
+// Keys that have no effect for the present values are written only with `Written::all`.
+enum class Written { used, all };
+[[nodiscard]] Node fields_as_node(const Fields& fields, Written written = Written::used);
+[[nodiscard]] std::string fields_as_toml(const Fields& fields, Written written = Written::used);
 
 }  // namespace palpate

@@ -46,9 +46,6 @@ class Source {
     if (!regular_) most_ = S_ISFIFO(status.st_mode) ? most_pipe_bytes : most_line_bytes;
     size_ = as_index(std::max<off_t>(status.st_size, 0));
   }
-  ~Source() { close(); }
-  Source(const Source&) = delete;
-  Source& operator=(const Source&) = delete;
 
   // The number of bytes that were read; 0 at the end.
   std::size_t read(std::span<char> into) {
@@ -73,19 +70,13 @@ class Source {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& why) {
-    close();
-    throw InputError({path_, 0, 0}, why);
-  }
+  [[noreturn]] void refuse(const std::string& why) { throw InputError({path_, 0, 0}, why); }
   [[noreturn]] void refuse() {
     const int error = errno;
     refuse(std::string("cannot be read: ") + std::strerror(error) +
            (error == EIO      ? "; copy it from a disk that works"
             : error == EACCES ? "; check its permissions"
                               : "; check the path"));
-  }
-  void close() {
-    if (file_ >= 0) ::close(std::exchange(file_, -1));
   }
   void wait() {
     pollfd source{file_, POLLIN, 0};
@@ -94,13 +85,17 @@ class Source {
   }
 
   const std::string& path_;
-  int file_ = -1;
+  Descriptor file_;
   bool regular_ = false;
   std::size_t size_ = 0;           // bytes, 0 if the system does not know it
   std::size_t most_ = most_bytes;  // that are read
 };
 
 }  // namespace
+
+Descriptor::~Descriptor() {
+  if (file_ >= 0) ::close(file_);
+}
 
 bool write_all(int file, std::string_view content) {
   while (!content.empty()) {
@@ -128,10 +123,7 @@ std::string read_text(const std::string& path) {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& temporary, int error) {
-  ::unlink(temporary.c_str());
-  if (error == ENAMETOOLONG)
-    throw InputError({path, 0, 0}, "is too long for the name of a file; give a shorter one");
+[[noreturn]] void fail(const std::string& path, int error = errno) {
   throw SystemError(path + " cannot be written: " + std::strerror(error));
 }
 
@@ -173,25 +165,25 @@ void HeldFile::write(const std::string& path, std::string_view content, Disk dis
   const std::string temporary = path + left_name + std::to_string(::getpid());
   // Without a name until it is whole, so that SIGKILL leaves nothing; not every file system can.
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+  Descriptor file =
+      ::open(folder.empty() ? "." : folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
   const bool unnamed = file >= 0;
   if (!unnamed) file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   // A file that could not be replaced later is not begun.
-  if (file >= 0 && ::access(temporary.c_str(), F_OK) != 0 && errno == ENAMETOOLONG) {
-    ::close(file);
-    fail(path, temporary, ENAMETOOLONG);
-  }
-  if (file < 0) fail(path, temporary, errno);
+  if (file >= 0 && ::access(temporary.c_str(), F_OK) != 0 && errno == ENAMETOOLONG) file = {};
+  const auto check = [&](bool good) {
+    if (good) return;
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    if (error == ENAMETOOLONG)
+      throw InputError({path, 0, 0}, "is too long for the name of a file; give a shorter one");
+    fail(path, error);
+  };
+  check(file >= 0);
   // Waits: a process that clears up may hold the new file for a moment. If the file system has no
   // locks, the file is written without one.
   while (::flock(file, LOCK_EX) != 0 && errno == EINTR) {
   }
-  const auto check = [&](bool good) {
-    if (good) return;
-    const int error = errno;
-    ::close(file);
-    fail(path, temporary, error);
-  };
   // A file that is replaced keeps its mode and, as far as this process may give files away, its
   // owner; chown() takes bits of the mode.
   struct stat there {};
@@ -217,12 +209,10 @@ void HeldFile::write(const std::string& path, std::string_view content, Disk dis
     }
     check(::rename(temporary.c_str(), path.c_str()) == 0);
   }
-  release();
-  file_ = file;
+  file_ = std::move(file);
 }
 
 bool HeldFile::take(const std::string& path) {
-  release();
   file_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   struct stat ours {};
   struct stat there {};
@@ -233,25 +223,12 @@ bool HeldFile::take(const std::string& path) {
   return false;
 }
 
-void HeldFile::release() {
-  if (file_ >= 0) ::close(file_);
-  file_ = -1;
-}
-
 namespace {
 
 // Writes into what a path names already: a device or a pipe.
 void write_through(const std::string& path, std::string_view content) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
-  const auto check = [&](bool good) {
-    if (good) return;
-    const int error = errno;
-    if (file >= 0) ::close(file);
-    throw SystemError(path + " cannot be written: " + std::strerror(error));
-  };
-  check(file >= 0);
-  check(write_all(file, content));
-  if (::close(file) != 0) throw SystemError(path + " cannot be written: " + std::strerror(errno));
+  Descriptor file = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (file < 0 || !write_all(file, content) || ::close(file.release()) != 0) fail(path);
 }
 
 // Where links lead, also to a file that is not there yet: it is replaced, and not the link.
@@ -270,11 +247,8 @@ std::string followed(const std::string& path) {
 }  // namespace
 
 void sync_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool good = file >= 0 && ::fsync(file) == 0;
-  const int error = errno;
-  if (file >= 0) ::close(file);
-  if (!good) throw SystemError(path + " cannot be written: " + std::strerror(error));
+  const Descriptor file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0 || ::fsync(file) != 0) fail(path);
 }
 
 void write_atomically(const std::string& path, std::string_view content, Disk disk) {
@@ -383,22 +357,19 @@ GrowingFile::GrowingFile(std::string path) : path_(std::move(path)) {
   if (file_ < 0) throw SystemError(path_ + " cannot be made: " + std::strerror(errno));
 }
 
-GrowingFile::~GrowingFile() { ::close(file_); }
-
 void GrowingFile::append(std::string_view text) {
   if (!write_all(file_, text)) {
     const int error = errno;
-    if (::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
-      // The incomplete line stays; a reader recognises it as such.
-    }
+    // Where it fails, a reader recognises the incomplete line as such.
+    (void)!::ftruncate(file_, static_cast<off_t>(size_));
     ::lseek(file_, static_cast<off_t>(size_), SEEK_SET);
-    throw SystemError(path_ + " cannot be written: " + std::strerror(error));
+    fail(path_, error);
   }
   size_ += text.size();
 }
 
 void GrowingFile::sync() {
-  if (::fsync(file_) != 0) throw SystemError(path_ + " cannot be written: " + std::strerror(errno));
+  if (::fsync(file_) != 0) fail(path_);
 }
 
 }  // namespace palpate

@@ -5,9 +5,27 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace palpate {
+
+// An open file of the system, which is closed with it; below 0 there is none.
+class Descriptor {
+ public:
+  Descriptor(int file = -1) : file_(file) {}  // NOLINT(google-explicit-constructor)
+  Descriptor(Descriptor&& other) noexcept : file_(other.release()) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(file_, other.file_);
+    return *this;
+  }
+  ~Descriptor();
+  operator int() const { return file_; }  // NOLINT(google-explicit-constructor)
+  int release() { return std::exchange(file_, -1); }
+
+ private:
+  int file_;
+};
 
 // Returns the content of a file. Throws InputError if it does not exist, if it is larger than 2 GiB
 // (as a pipe 256 MiB, as a device 64 MiB), and if reading fails before the end.
@@ -38,20 +56,15 @@ void make_folders(const std::string& path);
 // A file with an exclusive lock (flock), which the system releases when the process ends.
 class HeldFile {
  public:
-  HeldFile() = default;
-  ~HeldFile() { release(); }
-  HeldFile(const HeldFile&) = delete;
-  HeldFile& operator=(const HeldFile&) = delete;
-
   // Writes a file as write_atomically() does. The lock exists before the file has its final name.
   void write(const std::string& path, std::string_view content, Disk disk = Disk::now);
   // Locks an existing file. Returns false if another process has the lock, there is no such file,
   // or its file system has no locks.
   [[nodiscard]] bool take(const std::string& path);
-  void release();
+  void release() { file_ = {}; }
 
  private:
-  int file_ = -1;
+  Descriptor file_;
 };
 
 // SHA-256 as 64 lower-case hexadecimal digits.
@@ -94,10 +107,6 @@ class GrowingFile {
  public:
   // Throws SystemError if the file cannot be created or exists already.
   explicit GrowingFile(std::string path);
-  ~GrowingFile();
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
-
   // Appends the text, by one write() if the system accepts it whole. On an error the part that was
   // written is cut off again and SystemError is thrown (a full disk, a size limit).
   void append(std::string_view text);
@@ -108,7 +117,7 @@ class GrowingFile {
 
  private:
   std::string path_;
-  int file_ = -1;
+  Descriptor file_;
   std::size_t size_ = 0;
 };
 

@@ -1,5 +1,4 @@
 // Orders nodes, finds the fronts, and eliminates them from the leaves of the tree to its roots.
-#include "base/front_cholesky.h"
 
 #include <metis.h>
 

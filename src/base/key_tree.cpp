@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/field_writer.h"
 #include "base/text.h"
 #include "base/units.h"
 

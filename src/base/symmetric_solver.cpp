@@ -1,12 +1,6 @@
 // Factors of small matrices, conjugate gradients for up to four right-hand sides of large ones.
 #include "base/symmetric_solver.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include "base/index.h"
-
 namespace palpate {
 namespace {
 

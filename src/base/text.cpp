@@ -106,6 +106,12 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   return best;
 }
 
+std::string did_you_mean(std::string_view word, std::span<const std::string> known,
+                         const std::string& otherwise) {
+  const auto near = nearest(word, known);
+  return near ? "did you mean " + ticked(*near) + "?" : otherwise;
+}
+
 std::string bytes_text(std::string_view bytes) {
   std::string text = "\"";
   for (const char byte : bytes) {
@@ -143,6 +149,23 @@ std::string shortened(std::string_view text) {
   std::size_t end = most;  // not within a letter of UTF-8
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
   return std::string(text.substr(0, end)) + "...";
+}
+
+std::size_t first_broken_character(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const auto lead = static_cast<unsigned char>(text[at]);
+    const std::size_t size = lead < 0x80   ? 1
+                             : lead < 0xc2 ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                                           : 4;
+    if (size == 0 || lead > 0xf4 || at + size > text.size()) return at;
+    for (std::size_t i = 1; i < size; ++i)
+      if ((static_cast<unsigned char>(text[at + i]) & 0xc0) != 0x80) return at;
+    at += size;
+  }
+  return at;
 }
 
 std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
@@ -205,6 +228,11 @@ std::string joined(std::span<const std::string> words, std::string_view separato
     text += word;
   }
   return text;
+}
+
+std::string alternatives(std::span<const std::string> words) {
+  if (words.size() < 2) return joined(words, "");
+  return joined(words.first(words.size() - 1), ", ") + " or " + words.back();
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

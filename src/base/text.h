@@ -32,6 +32,9 @@ struct LeadingNumber {
 // The known word with the smallest edit distance from `word`; empty if none is similar.
 [[nodiscard]] std::optional<std::string> nearest(std::string_view word,
                                                  std::span<const std::string> known);
+// "did you mean `word`?" with the nearest known word; `otherwise` where none is similar.
+[[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string> known,
+                                       const std::string& otherwise);
 
 // Bytes as a quoted CSV field: printable ASCII as it is (quotes doubled), \r, \n, \\ or \xHH.
 [[nodiscard]] std::string bytes_text(std::string_view bytes);
@@ -41,6 +44,9 @@ struct LeadingNumber {
 
 // A name from a file as part of a line, which its line feeds do not end.
 [[nodiscard]] std::string one_line(std::string_view name);
+
+// The offset of the first byte that does not start a UTF-8 character, or the text's size.
+[[nodiscard]] std::size_t first_broken_character(std::string_view text);
 
 // The first 200 bytes of a text, for a place of which the sentence names the part that is wrong.
 [[nodiscard]] std::string shortened(std::string_view text);
@@ -72,6 +78,7 @@ struct LeadingNumber {
 
 [[nodiscard]] std::string trimmed(std::string_view text);
 [[nodiscard]] std::string joined(std::span<const std::string> words, std::string_view separator);
+[[nodiscard]] std::string alternatives(std::span<const std::string> words);  // "A, B or C"
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
 }  // namespace palpate

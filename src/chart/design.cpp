@@ -6,7 +6,7 @@
 #include <functional>
 #include <set>
 
-#include "base/field_writer.h"
+#include "base/fields.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "run/choose.h"

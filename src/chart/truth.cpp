@@ -12,7 +12,7 @@
 #include "base/stop_scope.h"
 #include "base/text.h"
 #include "chart/reference.h"
-#include "contact/relaxation.h"
+#include "contact/viscous_contact.h"
 #include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"

@@ -11,8 +11,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "commands/complete.h"
-#include "commands/wrong_words.h"
+#include "commands/command.h"
 #include "device/link.h"
 #include "fit/regression.h"
 #include "report/export.h"

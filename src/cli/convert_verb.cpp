@@ -326,10 +326,8 @@ void keep_case(std::vector<report::ExportCurve>& curves, const std::string& want
   for (const report::ExportCurve& curve : curves) names.push_back(curve.name);
   std::erase_if(curves, [&](const report::ExportCurve& curve) { return curve.name != wanted; });
   if (!curves.empty()) return;
-  const auto near = nearest(wanted, names);
-  throw InputError({file, 0, 0}, "has no case `" + wanted + "`" +
-                                     (near ? "; did you mean `" + *near + "`?"
-                                           : "; cases: " + joined(names, ", ")));
+  throw InputError({file, 0, 0}, "has no case `" + wanted + "`; " +
+                                     did_you_mean(wanted, names, "cases: " + joined(names, ", ")));
 }
 
 // A case's name as a file name: characters special to file systems or shells become `_`.

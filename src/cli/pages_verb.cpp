@@ -6,8 +6,7 @@
 #include "base/files.h"
 #include "cli/program.h"
 #include "cli/verbs.h"
-#include "commands/complete.h"
-#include "commands/pages.h"
+#include "commands/command.h"
 #include "report/manifest.h"
 #include "scenario/family.h"
 #include "scenario/schema.h"
@@ -65,7 +64,7 @@ int perform(const Schema&, const Arguments&, const Talk&) {
 }
 
 int perform(const Completion& command, const Arguments&, const Talk&) {
-  print(commands::completion_script(command.shell));
+  print(std::string(commands::completion_script(command.shell)));
   return exit_good;
 }
 

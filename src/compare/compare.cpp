@@ -15,7 +15,7 @@
 
 #include "base/document.h"
 #include "base/error.h"
-#include "base/field_reader.h"
+#include "base/fields.h"
 #include "base/index.h"
 #include "base/text.h"
 #include "base/written.h"
@@ -429,10 +429,10 @@ void refuse_unknown_columns(const Tolerances& tolerances, const std::set<std::st
   std::vector<Problem> problems;
   const auto ask = [&](const std::string& name, const Place& place) {
     if (columns.contains(name)) return;
-    const auto near = nearest(name, known);
-    problems.push_back({place, "`" + name + "` is no column of these files; " +
-                                   (near ? "did you mean `" + *near + "`?"
-                                         : "take it out, or name one of " + joined(known, ", "))});
+    problems.push_back(
+        {place,
+         "`" + name + "` is no column of these files; " +
+             did_you_mean(name, known, "take it out, or name one of " + joined(known, ", "))});
   };
   for (const auto& [name, place] : tolerances.places) ask(name, place);
   if (!problems.empty()) throw InputError(problems);

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "contact/layer_integral.h"
+#include "contact/layer.h"
 
 namespace palpate::contact {
 

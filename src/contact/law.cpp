@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "contact/elliptic.h"
 #include "contact/hertz.h"
 
 namespace palpate::contact {

@@ -1,8 +1,6 @@
 // Distributes Hertz's pressure: a quadrature in polar coordinates and walks over the triangles.
 #include "contact/patch.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>

@@ -2,7 +2,6 @@
 // vectorisation.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 namespace palpate::contact {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
+#include "base/words.h"
 
 namespace palpate::device {
 namespace {
@@ -41,36 +42,21 @@ Json rules_json(const RuleCounts& rules) {
           {"outside", rules.outside},       {"damped", rules.damped}};
 }
 
-const char* port_text(Events::Port port) {
-  switch (port) {
-    case Events::Port::none: return "none";
-    case Events::Port::unheard: return "not heard";
-    case Events::Port::heard: return "heard";
-    case Events::Port::lost: return "lost";
-  }
-  return "unknown";
-}
+constexpr std::array port_texts{"none", "not heard", "heard", "lost"};  // of Events::Port
 
 Json events_json(const Events& events) {
   Json counts = Json::object();
   for (std::size_t i = 0; i < event_kinds; ++i)
-    if (events.counts[i] > 0)
-      counts[std::string(event_text(static_cast<Event>(i)))] = events.counts[i];
-  return {{"port", port_text(events.port)}, {"counts", counts}};
+    if (events.counts[i] > 0) counts[event_text(static_cast<Event>(i))] = events.counts[i];
+  return {{"port", port_texts[as_index(events.port)]}, {"counts", counts}};
 }
 
 }  // namespace
 
 const char* link_state_text(LinkState state) {
-  switch (state) {
-    case LinkState::open: return "open";
-    case LinkState::armed: return "armed";
-    case LinkState::stale: return "stale";
-    case LinkState::tripped: return "tripped";
-    case LinkState::lost: return "lost";
-    case LinkState::closed: return "closed";
-  }
-  return "unknown";
+  constexpr auto words = words_of<LinkState>(
+      {{"open", ""}, {"armed", ""}, {"stale", ""}, {"tripped", ""}, {"lost", ""}, {"closed", ""}});
+  return word(words, state);
 }
 
 void Health::count(double now, const Sample& sample) {
@@ -145,7 +131,7 @@ std::vector<std::string> event_sentences(const Events& events) {
     if (event == Event::busy)
       sentences.emplace_back("another session uses the arm (`device-busy`); end it");
     else
-      sentences.push_back("the service reported `" + std::string(event_text(event)) + "`" +
+      sentences.push_back(std::string("the service reported `") + event_text(event) + "`" +
                           (count > 1 ? ", " + std::to_string(count) + " times" : ""));
   }
   return sentences;
@@ -182,8 +168,7 @@ std::string health_json(const Identity& identity, const Limits& limits, const Tr
   json["rules"] = rules_json(health.rules);
   Json faults = Json::object();
   for (std::size_t i = 1; i < health.faults.size(); ++i)
-    if (health.faults[i] > 0)
-      faults[std::string(fault_text(static_cast<Fault>(i)))] = health.faults[i];
+    if (health.faults[i] > 0) faults[fault_text(static_cast<Fault>(i))] = health.faults[i];
   json["faults"] = faults;
   json["reply"] = histogram_json(traffic.reply);
   json["lateness"] = histogram_json(health.lateness);

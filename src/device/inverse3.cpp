@@ -2,7 +2,6 @@
 #include "device/inverse3.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "base/error.h"
 
@@ -58,7 +57,7 @@ std::optional<double> Unanswered::answered() {
 }
 
 Inverse3::Inverse3(const ArmAddress& address, Purpose purpose, Clock& clock, Tap* tap)
-    : clock_(clock),
+    : LinkParts(clock),
       purpose_(purpose),
       connected_by_(wire_time() + connect_time),
       host_(look_up(address.host, connected_by_)),

@@ -43,7 +43,7 @@ class Unanswered {
   std::uint64_t given_up_ = 0;
 };
 
-class Inverse3 {
+class Inverse3 : public LinkParts {
  public:
   // Finds the host, connects, requests the version and reads the snapshot, all within about 2 s;
   // then finds the spelling by zero forces, within about 1.2 s. With Purpose::look a service that
@@ -56,8 +56,6 @@ class Inverse3 {
   Inverse3(const Inverse3&) = delete;
   Inverse3& operator=(const Inverse3&) = delete;
 
-  [[nodiscard]] const Identity& identity() const { return identity_; }
-  [[nodiscard]] const Limits& limits() const { return limits_; }
   [[nodiscard]] Traffic traffic() const;
 
   // Returns the newest reply, waiting for it at most `wait` s; sends a zero force first if no
@@ -82,18 +80,12 @@ class Inverse3 {
   bool charge();
   Sample exchange(double wait);
   Sample read(const WebSocket::Received& message);
-  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
-    return {.arrival = arrival, .fault = fault, .received = clock_.now()};
-  }
 
-  Clock& clock_;
   Purpose purpose_;
   double connected_by_;  // s, wire_time(), the deadline of the constructor's first part
   Host host_;
   WebSocket socket_;
   std::optional<WebSocket> events_ = {};
-  Identity identity_;
-  Limits limits_;
   inverse3::Spelling spelling_ = inverse3::Spelling::vector;
   inverse3::IdForm id_form_ = inverse3::IdForm::text;
   bool probes_ = false;    // positions are requested by `probe_position`, without forces
@@ -102,14 +94,12 @@ class Inverse3 {
   double asked_at_ = 0.0;  // s, wire_time() of the first message since the last reply
   Unanswered unanswered_;
   inverse3::Mode mode_ = inverse3::Mode::unknown;
-  bool confirmed_ = false;      // the arm has left its idle mode after a zero force
-  int idle_replies_ = 0;        // idle replies in a row
-  Fault told_ = Fault::none;    // of an event, to be returned with the next sample
-  bool braked_ = false;         // according to the last brake event
-  Fault gone_ = Fault::none;    // why the link is lost, while the socket is open
-  int surplus_ = 0;             // events beyond the usual number of all frames so far
-  std::optional<Sample> last_;  // the last fresh sample
-  Traffic traffic_;
+  bool confirmed_ = false;    // the arm has left its idle mode after a zero force
+  int idle_replies_ = 0;      // idle replies in a row
+  Fault told_ = Fault::none;  // of an event, to be returned with the next sample
+  bool braked_ = false;       // according to the last brake event
+  Fault gone_ = Fault::none;  // why the link is lost, while the socket is open
+  int surplus_ = 0;           // events beyond the usual number of all frames so far
 };
 
 }  // namespace palpate::device

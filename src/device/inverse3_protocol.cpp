@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -177,21 +176,17 @@ constexpr double fastest = 100.0;  // m/s
 
 // {"x": , "y": , "z": }; nothing if a component is missing or is not a number.
 std::optional<Vec3> read_vector(JsonScanner& scanner) {
-  if (!scanner.enter('{')) {
-    scanner.skip();
-    return std::nullopt;
-  }
   Vec3 vector = Vec3::Zero();
   unsigned seen = 0;
-  while (const auto key = scanner.next_key()) {
-    const int axis = *key == "x" ? 0 : *key == "y" ? 1 : *key == "z" ? 2 : -1;
-    if (axis < 0) {
-      scanner.skip();
-    } else if (const auto value = scanner.number()) {
+  scanner.object([&](std::string_view key) {
+    const int axis = key == "x" ? 0 : key == "y" ? 1 : key == "z" ? 2 : -1;
+    if (axis < 0) return false;
+    if (const auto value = scanner.number()) {
       vector[axis] = *value;
       seen |= 1u << axis;
     }
-  }
+    return true;
+  });
   return seen == 7u ? std::optional(vector) : std::nullopt;
 }
 
@@ -200,80 +195,69 @@ constexpr double same = 1e-6;  // of a rotation or a scale: no difference
 // Whether {"position": , "rotation": {"w": , "x": ...}, "scale": {"x": ...}} turns or scales.
 bool read_framed(JsonScanner& scanner) {
   bool framed = false;
-  if (!scanner.enter('{')) {
-    scanner.skip();
-    return false;
-  }
-  while (const auto key = scanner.next_key()) {
-    const bool turn = *key == "rotation";
-    if (!turn && *key != "scale") {
-      scanner.skip();
-    } else if (const auto vector = read_vector(scanner)) {
+  scanner.object([&](std::string_view key) {
+    const bool turn = key == "rotation";
+    if (!turn && key != "scale") return false;
+    if (const auto vector = read_vector(scanner))
       framed = framed || (vector->array() - (turn ? 0.0 : 1.0)).abs().maxCoeff() > same;
-    }
-  }
+    return true;
+  });
   return framed;
 }
 
 void read_state(JsonScanner& scanner, Reply& reply) {
-  if (!scanner.enter('{')) return scanner.skip();
   bool newer = false;
-  while (const auto key = scanner.next_key()) {
-    if (*key == "cursor_position") {
+  scanner.object([&](std::string_view key) {
+    if (key == "cursor_position") {
       reply.position = read_vector(scanner);
-    } else if (*key == "cursor_velocity") {
+    } else if (key == "cursor_velocity") {
       reply.velocity = read_vector(scanner);
-    } else if (*key == "control_mode" || *key == "mode") {  // from 3.5 on, and before
+    } else if (key == "control_mode" || key == "mode") {  // from 3.5 on, and before
       // Services in between have both words, and the older one may be left behind.
-      const bool counts = *key == "control_mode" || !newer;
-      newer = newer || *key == "control_mode";
+      const bool counts = key == "control_mode" || !newer;
+      newer = newer || key == "control_mode";
       const auto mode = scanner.string();
       if (mode && counts) reply.mode = *mode == "idle" ? Mode::idle : Mode::other;
-    } else if (*key == "transform") {
+    } else if (key == "transform") {
       reply.framed = read_framed(scanner);
     } else {
-      scanner.skip();
+      return false;
     }
-  }
+    return true;
+  });
 }
 
 // Sets Fault::brake if the status says that a brake acts, or that the arm is not ready or has no
 // power.
 void read_status(JsonScanner& scanner, Reply& reply) {
-  if (!scanner.enter('{')) return scanner.skip();
-  while (const auto key = scanner.next_key()) {
-    const bool good = *key == "ready" || *key == "calibrated" || *key == "power_supply";
-    const bool bad = *key == "ebrake" || *key == "ebrake_triggered" || *key == "brake";
-    if (!good && !bad) {
-      scanner.skip();
-    } else if (const auto value = scanner.boolean(); value && *value == bad) {
-      reply.fault = Fault::brake;
-    }
-  }
+  scanner.object([&](std::string_view key) {
+    const bool good = key == "ready" || key == "calibrated" || key == "power_supply";
+    const bool bad = key == "ebrake" || key == "ebrake_triggered" || key == "brake";
+    if (!good && !bad) return false;
+    if (const auto value = scanner.boolean(); value && *value == bad) reply.fault = Fault::brake;
+    return true;
+  });
 }
 
 // Reads one element of `inverse3`; true if it is the arm `id`. The id may come after the state, so
 // that the whole element is read before `reply` is set.
 bool read_arm(JsonScanner& scanner, std::string_view id, Reply& reply, bool& others) {
-  if (!scanner.enter('{')) {
-    scanner.skip();
-    return false;
-  }
   Reply one;
   bool ours = false;
-  while (const auto key = scanner.next_key()) {
-    if (*key == "device_id") {
+  scanner.object([&](std::string_view key) {
+    if (key == "device_id") {
       const auto name = scanner.word();
       ours = name == id;
       others = others || !ours;
-    } else if (*key == "state") {
+    } else if (key == "state") {
       read_state(scanner, one);
-    } else if (*key == "status") {
+    } else if (key == "status") {
       read_status(scanner, one);
     } else {
-      scanner.skip();
+      return false;
     }
-  }
+    return true;
+  });
   if (ours) reply = one;
   return ours;
 }
@@ -410,18 +394,12 @@ Reply parse_reply(std::string_view message, std::string_view id) {
   JsonScanner scanner(message);
   bool found = false;
   bool others = false;
-  if (!scanner.enter('{')) {
-    reply.fault = Fault::garbage;
-    return reply;
-  }
-  while (const auto key = scanner.next_key()) {
-    if (*key == "inverse3" && scanner.enter('[')) {
-      while (scanner.next_element()) found = read_arm(scanner, id, reply, others) || found;
-    } else {
-      scanner.skip();
-    }
-  }
-  if (!scanner.at_end()) return {.fault = Fault::garbage};
+  const bool is_object = scanner.object([&](std::string_view key) {
+    if (key != "inverse3" || !scanner.enter('[')) return false;
+    while (scanner.next_element()) found = read_arm(scanner, id, reply, others) || found;
+    return true;
+  });
+  if (!is_object || !scanner.at_end()) return {.fault = Fault::garbage};
   if (!found) return {.fault = others ? Fault::wrong_device : Fault::missing_field};
   if (!within(reply.position, farthest) || !within(reply.velocity, fastest))
     return {.fault = Fault::not_finite};
@@ -483,16 +461,11 @@ struct Words {
 };
 
 void read_data(JsonScanner& scanner, Words& words) {
-  if (!scanner.enter('{')) return scanner.skip();
-  while (const auto key = scanner.next_key()) {
-    if (*key == "device_id") {
-      words.device = scanner.string().value_or("");
-    } else if (*key == "safety_type") {
-      words.safety = scanner.string().value_or("");
-    } else {
-      scanner.skip();
-    }
-  }
+  scanner.object([&](std::string_view key) {
+    if (key != "device_id" && key != "safety_type") return false;
+    (key == "device_id" ? words.device : words.safety) = scanner.string().value_or("");
+    return true;
+  });
 }
 
 Event safety_event(const Words& words) {
@@ -511,20 +484,17 @@ Event safety_event(const Words& words) {
 
 Event parse_event(std::string_view message, std::string_view id) {
   JsonScanner scanner(message);
-  if (!scanner.enter('{')) return Event::garbage;
   Words words;
-  while (const auto key = scanner.next_key()) {
-    if (*key == "name") {
-      words.name = scanner.string().value_or("");
-    } else if (*key == "level") {
-      words.level = scanner.string().value_or("");
-    } else if (*key == "data") {
+  const bool is_object = scanner.object([&](std::string_view key) {
+    if (key == "data") {
       read_data(scanner, words);
-    } else {
-      scanner.skip();
+      return true;
     }
-  }
-  if (!scanner.at_end()) return Event::garbage;
+    if (key != "name" && key != "level") return false;
+    (key == "name" ? words.name : words.level) = scanner.string().value_or("");
+    return true;
+  });
+  if (!is_object || !scanner.at_end()) return Event::garbage;
   const bool safety = words.name == "device-safety-triggered";
   const bool gone = words.name == "device-disconnected";
   if (!safety && !gone && words.name != "device-busy") return Event::other;

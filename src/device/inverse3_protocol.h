@@ -40,6 +40,16 @@ class JsonScanner {
   std::optional<std::string_view> word();  // a string, or a number as it is written
   std::optional<bool> boolean();
   void skip();
+  // Reads an object: `use` gets each key and returns whether it has read the value, which is
+  // skipped otherwise. A value of another type is skipped, and the result is false.
+  template <class Use>
+  bool object(const Use& use) {
+    const bool is_object = enter('{');
+    if (!is_object) skip();
+    while (const auto key = is_object ? next_key() : std::nullopt)
+      if (!use(*key)) skip();
+    return is_object;
+  }
 
   bool at_end();  // true if the text was valid and only white space is left
 

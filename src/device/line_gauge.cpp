@@ -6,21 +6,16 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "base/document.h"
 #include "base/error.h"
-#include "base/field_reader.h"
 #include "base/fields.h"
 #include "base/text.h"
-#include "device/serial_port.h"
 
 namespace palpate::device {
 namespace {
 
-constexpr std::size_t diagnosis_bytes = 400;
-constexpr int most_reads = 64;         // of 256 bytes, before a request
 constexpr double farthest = 10.0;      // m, beyond the reach of any stage
 constexpr double strongest = 1e6;      // N, beyond any gauge
 constexpr double least_answer = 0.25;  // s, that a gauge may take at any rate
@@ -47,7 +42,7 @@ double unit_or_none(Measure measure, const std::string& word) {
 }  // namespace
 
 LineGauge::LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap)
-    : clock_(clock),
+    : LinkParts(clock),
       path_(address.port),
       file_(address.settings),
       settings_(read_line_settings(address.settings)),
@@ -55,8 +50,7 @@ LineGauge::LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap)
       given_unit_{unit_or_none(Measure::force, settings_.force_unit),
                   unit_or_none(Measure::travel, settings_.travel_unit),
                   unit_or_none(Measure::time, settings_.time_unit)},
-      port_(address.port, settings_.line) {
-  port_.tap(tap);
+      serial_(address.port, settings_.line, tap) {
   const double period = 1.0 / settings_.rate;
   identity_.kind = Kind::gauge;
   identity_.dialect = "lines like `" + settings_.pattern + "`";
@@ -66,10 +60,9 @@ LineGauge::LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap)
   limits_.period = period;
   limits_.stale_after = 3.0 * period;
   limits_.lost_after = std::max(1.0, 10.0 * period);
-  first_bytes_.reserve(diagnosis_bytes);
   // Only a stream that no text starts is in the middle of a line.
   cut_ = settings_.poll.empty() && settings_.start.empty();
-  if (!settings_.start.empty()) (void)port_.write(settings_.start);
+  if (!settings_.start.empty()) (void)serial_.port.write(settings_.start);
   // The first line of a stream may be cut, so that two must come.
   wait_ = std::max(settings_.wait, 2.5 * period);
   greet(wire_time() + wait_);
@@ -80,7 +73,7 @@ LineGauge::LineGauge(const GaugeAddress& address, Clock& clock, Tap* tap)
 }
 
 LineGauge::~LineGauge() {
-  if (!settings_.stop.empty()) (void)port_.write(settings_.stop);
+  if (!settings_.stop.empty()) (void)serial_.port.write(settings_.stop);
 }
 
 // With a stepped clock a reading takes one period, as it does in the emulator.
@@ -104,15 +97,8 @@ bool LineGauge::due(double until) {
 bool LineGauge::ask() {
   if (settings_.poll.empty() || asked_) return true;
   // What came since the last reply is not the reply to this request.
-  std::array<char, 256> bytes;
-  for (int reads = 0; reads < most_reads; ++reads) {
-    const auto read = port_.read(bytes, 0.0);
-    if (read.outcome != SerialPort::Outcome::bytes) break;
-    traffic_.discarded += read.size;
-  }
-  traffic_.discarded += lines_.rest().size();
-  lines_.clear();
-  if (!port_.write(settings_.poll)) return false;
+  traffic_.discarded += serial_.drain();
+  if (!serial_.port.write(settings_.poll)) return false;
   pass_time();
   asked_ = true;
   heard_ = false;
@@ -121,19 +107,8 @@ bool LineGauge::ask() {
   return true;
 }
 
-void LineGauge::receive(double until) {
-  std::array<char, 256> bytes;
-  const auto read = port_.read(bytes, until);
-  if (read.outcome != SerialPort::Outcome::bytes) return;
-  heard_ = true;
-  const std::string_view got(bytes.data(), read.size);
-  if (first_bytes_.size() < diagnosis_bytes)
-    first_bytes_ += got.substr(0, diagnosis_bytes - first_bytes_.size());
-  lines_.feed(got);
-}
-
 void LineGauge::greet(double until) {
-  while (wire_time() < until && !port_.lost()) {
+  while (wire_time() < until && !serial_.port.lost()) {
     const Sample first = sample(std::max(0.0, until - wire_time()));
     if (first.arrival != Arrival::fresh) continue;
     identity_.notes.push_back("the first line, " + heard().back());
@@ -145,13 +120,13 @@ void LineGauge::greet(double until) {
 
 void LineGauge::refuse_silence() const {
   const std::string on = "palpate: on `" + path_ + "` ";
-  if (port_.lost()) throw LinkError(on + "the device hung up; check its cable");
+  if (serial_.port.lost()) throw LinkError(on + "the device hung up; check its cable");
   const std::string rate = std::to_string(settings_.line.baud) + " baud";
-  if (first_bytes_.empty())
+  if (serial_.first_bytes.empty())
     throw LinkError(on + "nothing comes within " + rounded_text(wait_, 3) + " s" +
                     (settings_.poll.empty() ? "" : " after `" + printable(settings_.poll) + "`") +
                     "; check the cable, `baud`, `poll` and `start` in `" + file_ + "`");
-  if (garbage_share(first_bytes_) > 0.2)
+  if (garbage_share(serial_.first_bytes) > 0.2)
     throw LinkError(on + "garbage comes, as at a wrong rate; give the gauge's own instead of " +
                     rate + " in `" + file_ + "`");
   const bool sends_by_itself = settings_.poll.empty() && settings_.start.empty();
@@ -161,7 +136,7 @@ void LineGauge::refuse_silence() const {
                     "`wait`, in `" +
                     file_ + "`");
   if (kept_count_ == 0)
-    throw LinkError(on + "`" + printable(first_bytes_) +
+    throw LinkError(on + "`" + printable(serial_.first_bytes) +
                     "` comes, which never ends as a line does; let the gauge end each reading with "
                     "a line feed");
   throw LinkError(on + "no line matches `" + settings_.pattern + "`: " + heard().back() +
@@ -170,7 +145,7 @@ void LineGauge::refuse_silence() const {
 
 Traffic LineGauge::traffic() const {
   Traffic traffic = traffic_;
-  traffic.discarded += lines_.dropped();
+  traffic.discarded += serial_.lines.dropped();
   return traffic;
 }
 
@@ -235,8 +210,9 @@ Sample LineGauge::sample(double wait) {
   const double until = wire_time() + std::max(0.0, wait);
   while (true) {
     if (!due(until)) return finished(Arrival::none, Fault::none);
-    if (!ask()) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
-    if (const auto line = lines_.next()) {
+    if (!ask())
+      return finished(serial_.port.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
+    if (const auto line = serial_.lines.next()) {
       // The beginning of the first line of a stream may be missing.
       if (std::exchange(cut_, false)) continue;
       keep(*line);
@@ -248,16 +224,17 @@ Sample LineGauge::sample(double wait) {
       heard_ = false;
       return sample;
     }
-    if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
+    if (serial_.port.lost()) return finished(Arrival::lost, Fault::hung_up);
     const double now = wire_time();
     if (asked_ && now >= asked_at_ + reply_time()) {
       asked_ = false;
       if (!heard_) return finished(Arrival::none, Fault::silent);
-      return finished(Arrival::dropped,
-                      garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated);
+      return finished(Arrival::dropped, garbage_share(serial_.lines.rest()) > 0.0
+                                            ? Fault::garbage
+                                            : Fault::truncated);
     }
     if (now >= until) return finished(Arrival::none, Fault::none);
-    receive(asked_ ? std::min(until, asked_at_ + reply_time()) : until);
+    if (serial_.receive(asked_ ? std::min(until, asked_at_ + reply_time()) : until)) heard_ = true;
   }
 }
 
@@ -628,14 +605,9 @@ std::optional<double> unit_of(Measure measure, std::string_view word) {
 }
 
 std::string known_units(Measure measure) {
-  const auto units = units_of(measure);
-  std::string list;
-  for (std::size_t i = 0; i < units.size(); ++i)
-    list += (i == 0                  ? ""
-             : i + 1 == units.size() ? " or "
-                                     : ", ") +
-            ("`" + std::string(units[i].unit)) + "`";
-  return list;
+  std::vector<std::string> list;
+  for (const UnitFactor& one : units_of(measure)) list.push_back(ticked(one.unit));
+  return alternatives(list);
 }
 
 }  // namespace palpate::device

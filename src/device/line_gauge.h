@@ -116,7 +116,7 @@ struct LineSettings {
 // Reads the file. Throws InputError with the place of what is wrong, also of a pattern or a unit.
 [[nodiscard]] LineSettings read_line_settings(const std::string& path);
 
-class LineGauge {
+class LineGauge : public LinkParts {
  public:
   // Reads the settings, opens the port, sends the start text, and waits for the first line that
   // matches the pattern. Throws InputError for wrong settings and LinkError with a diagnosis.
@@ -126,8 +126,6 @@ class LineGauge {
   LineGauge(const LineGauge&) = delete;
   LineGauge& operator=(const LineGauge&) = delete;
 
-  [[nodiscard]] const Identity& identity() const { return identity_; }
-  [[nodiscard]] const Limits& limits() const { return limits_; }
   [[nodiscard]] Traffic traffic() const;
 
   // The next line, waiting for it at most `wait` s; with a poll text it asks first, unless a reply
@@ -135,7 +133,7 @@ class LineGauge {
   // of the travel. After `restarted` or `clock_jumped`, and when the port is gone, the link is
   // lost.
   [[nodiscard]] Sample sample(double wait);
-  [[nodiscard]] bool stop() const { return !port_.lost(); }
+  [[nodiscard]] bool stop() const { return !serial_.port.lost(); }
 
   // The last lines as sentences: "`F 0.15 N`: force 0.15 N", or why a line does not match.
   [[nodiscard]] std::vector<std::string> heard() const;
@@ -154,27 +152,18 @@ class LineGauge {
   bool ask();
   // Waits for the time of the next poll; false if it is after `until` (s, wire_time()).
   bool due(double until);
-  void receive(double until);
   void keep(std::string_view line);
   Sample read(std::string_view line);
   // In SI; nothing if the line has the number and its unit is unknown.
   [[nodiscard]] std::optional<double> value_of(const LineWords& words, Measure measure) const;
-  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
-    return {.arrival = arrival, .fault = fault, .received = clock_.now()};
-  }
 
-  Clock& clock_;
   std::string path_;
   std::string file_;  // of the settings
   LineSettings settings_;
   double wait_ = 0.0;  // s, for the first line
   LinePattern pattern_;
   std::array<double, measures> given_unit_{};  // SI, of the settings
-  SerialPort port_;
-  LineBuffer lines_;
-  Identity identity_;
-  Limits limits_;
-  Traffic traffic_;
+  SerialLines serial_;
   bool asked_ = false;               // a poll text was sent and no line has come
   bool heard_ = false;               // bytes have come since
   double asked_at_ = 0.0;            // s, wire_time()
@@ -182,10 +171,8 @@ class LineGauge {
   bool cut_ = false;                 // the next line may lack its beginning
   Fault out_of_time_ = Fault::none;  // the gauge's time went back or ahead
   double unit_ = 0.0;                // N, of the first force
-  std::optional<Sample> last_;       // the last fresh sample
   std::array<Kept, kept_lines> kept_{};
   std::size_t kept_count_ = 0;  // lines since the start
-  std::string first_bytes_;     // while greeting, for a diagnosis
 };
 
 }  // namespace palpate::device

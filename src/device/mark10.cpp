@@ -17,9 +17,6 @@ constexpr double into_channel = 15e-3;    // s, pause after `/`, as in the publi
 constexpr double out_of_channel = 10e-3;  // s, pause after `\`
 constexpr double planned_period = 0.02;   // s: 50 Hz, as LabKit polls
 constexpr double longest_wait = 0.2 * GuardProcess::silence;  // s
-constexpr std::size_t greeting_bytes = 400;
-constexpr int most_waiting_reads =
-    64;  // of 256 bytes: twice what a line at 115200 baud carries in 0.7 s
 // ESM303 data sheet: 0.5 to 1100 mm/min. They cannot be requested: `j` and `k` select them.
 constexpr double slowest = 0.5e-3 / 60.0;     // m/s
 constexpr double fastest = 1100.0e-3 / 60.0;  // m/s
@@ -27,12 +24,11 @@ constexpr double fastest = 1100.0e-3 / 60.0;  // m/s
 }  // namespace
 
 Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
-    : clock_(clock),
+    : LinkParts(clock),
       path_(port),
       purpose_(purpose),
-      port_(port, {.baud = mark10::baud},
-            purpose == Purpose::stop ? SerialPort::Use::shared : SerialPort::Use::alone) {
-  port_.tap(tap);
+      serial_(port, {.baud = mark10::baud}, tap,
+              purpose == Purpose::stop ? SerialPort::Use::shared : SerialPort::Use::alone) {
   identity_.kind = Kind::stand;
   limits_.measures_force = true;
   limits_.slowest = slowest;
@@ -40,22 +36,21 @@ Mark10::Mark10(const std::string& port, Purpose purpose, Clock& clock, Tap* tap)
   limits_.period = planned_period;
   limits_.stale_after = 3.0 * planned_period;
   limits_.lost_after = 0.25;
-  first_bytes_.reserve(greeting_bytes);
   if (purpose_ == Purpose::stop) {
     send("\\s");  // the channel to the gauge may be open
     return;
   }
   if (purpose_ == Purpose::command) {
-    process_ = std::make_unique<GuardProcess>(
-        port_.descriptor(), clock_.kind() == Clock::Kind::monotonic ? GuardProcess::Heed::silence
-                                                                    : GuardProcess::Heed::end_only);
-    guard_ = std::make_unique<StopGuard>(port_.descriptor(), "s");
+    process_ = std::make_unique<GuardProcess>(serial_.port.descriptor(),
+                                              clock_.kind() == Clock::Kind::monotonic
+                                                  ? GuardProcess::Heed::silence
+                                                  : GuardProcess::Heed::end_only);
+    guard_ = std::make_unique<StopGuard>(serial_.port.descriptor(), "s");
     StopGuard::watch_child(process_->id());
     signals_ = StopGuard::signals_passed();
     send("s");
   }
   greet();
-  greeting_ = false;
 }
 
 void Mark10::pause(double time) {
@@ -79,33 +74,17 @@ double Mark10::patience(double time) const {
 
 bool Mark10::send(std::string_view bytes) {
   if (process_) process_->beat();
-  return port_.write(bytes);
+  return serial_.port.write(bytes);
 }
 
 // Waits for at most a part of the time after which the guard process takes this one for dead.
 void Mark10::receive(double until) {
-  std::array<char, 256> bytes;
   if (process_) process_->beat();
-  const auto read = port_.read(bytes, std::min(until, wire_time() + longest_wait));
-  if (read.outcome != SerialPort::Outcome::bytes) return;
-  heard_ = true;
-  const std::string_view got(bytes.data(), read.size);
-  if (greeting_ && first_bytes_.size() < greeting_bytes)
-    first_bytes_ += got.substr(0, greeting_bytes - first_bytes_.size());
-  lines_.feed(got);
+  if (serial_.receive(std::min(until, wire_time() + longest_wait))) heard_ = true;
 }
 
 void Mark10::drain() {
-  std::array<char, 256> bytes;
-  for (int reads = 0; reads < most_waiting_reads; ++reads) {
-    const auto read = port_.read(bytes, 0.0);
-    if (read.outcome != SerialPort::Outcome::bytes) break;
-    if (greeting_ && first_bytes_.size() < greeting_bytes)
-      first_bytes_.append(bytes.data(), std::min(read.size, greeting_bytes - first_bytes_.size()));
-    traffic_.discarded += read.size;
-  }
-  traffic_.discarded += lines_.rest().size();
-  lines_.clear();
+  traffic_.discarded += serial_.drain();
   pairs_.clear();
 }
 
@@ -151,8 +130,8 @@ bool Mark10::ask(std::string_view command) {
 
 std::optional<std::string_view> Mark10::line_until(double until) {
   while (true) {
-    if (const auto line = lines_.next()) return line;
-    if (port_.lost() || wire_time() >= until) return std::nullopt;
+    if (const auto line = serial_.lines.next()) return line;
+    if (serial_.port.lost() || wire_time() >= until) return std::nullopt;
     receive(until);
   }
 }
@@ -184,7 +163,7 @@ std::optional<mark10::Status> Mark10::ask_status() {
 
 Traffic Mark10::traffic() const {
   Traffic traffic = traffic_;
-  traffic.discarded += lines_.dropped();
+  traffic.discarded += serial_.lines.dropped();
   return traffic;
 }
 
@@ -215,9 +194,9 @@ bool Mark10::is_late() {
                              : byte_time * static_cast<double>(reply_size_ + 1);
   if (wire_time() < asked_at_ + soonest) return true;
   const auto more = [&] {
-    return lines_.rest().find_first_not_of("\r\n") != std::string_view::npos;
+    return serial_.lines.rest().find_first_not_of("\r\n") != std::string_view::npos;
   };
-  for (const double until = wire_time() + burst; !more() && !port_.lost();) {
+  for (const double until = wire_time() + burst; !more() && !serial_.port.lost();) {
     if (wire_time() >= until) return false;
     receive(until);
   }
@@ -261,13 +240,14 @@ Sample Mark10::sample(double wait) {
 }
 
 Sample Mark10::read_sample(double wait) {
-  if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
+  if (serial_.port.lost()) return finished(Arrival::lost, Fault::hung_up);
   const double until = wire_time() + std::max(0.0, wait);
   if (!asked_) {
     // The replies to requests that were given up are read: they must not be taken for others.
     if (owed_count_ == 0) drain();
     asked_time_ = clock_.now();
-    if (!send("n")) return finished(port_.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
+    if (!send("n"))
+      return finished(serial_.port.lost() ? Arrival::lost : Arrival::none, Fault::hung_up);
     pass_time();
     asked_ = true;
     ++traffic_.sent;
@@ -278,7 +258,7 @@ Sample Mark10::read_sample(double wait) {
   }
   Fault fault = Fault::none;
   while (true) {
-    if (const auto line = lines_.next()) {
+    if (const auto line = serial_.lines.next()) {
       reply_size_ += line->size() + 2;  // with its CR and LF
       const auto step = pairs_.take(*line);
       if (step.pair) {
@@ -306,7 +286,7 @@ Sample Mark10::read_sample(double wait) {
       }
       continue;
     }
-    if (port_.lost()) return finished(Arrival::lost, Fault::hung_up);
+    if (serial_.port.lost()) return finished(Arrival::lost, Fault::hung_up);
     const double now = wire_time();
     if (now >= asked_at_ + patience(sample_time)) {
       give_up();
@@ -314,7 +294,7 @@ Sample Mark10::read_sample(double wait) {
         clock_.sleep_until(clock_.now() + sample_time - planned_period);
       if (!heard_) return finished(Arrival::none, Fault::silent);
       if (fault == Fault::none)
-        fault = garbage_share(lines_.rest()) > 0.0 ? Fault::garbage : Fault::truncated;
+        fault = garbage_share(serial_.lines.rest()) > 0.0 ? Fault::garbage : Fault::truncated;
       return finished(Arrival::dropped, fault);
     }
     if (now >= until) return finished(Arrival::none, fault);
@@ -357,7 +337,7 @@ void Mark10::greet() {
     throw LinkError("palpate: the stand on `" + path_ + "` answers `*" + std::to_string(error) +
                     "`, " + std::string(mark10::error_text(error)) +
                     "; switch its PC Control on, and its gauge to the main screen");
-  if (!pair && force_alone && !port_.lost())
+  if (!pair && force_alone && !serial_.port.lost())
     throw LinkError("palpate: the stand on `" + path_ +
                     "` sends a force and no travel; it has no travel display, or this is a gauge "
                     "by itself; read that with `serial:" +
@@ -468,19 +448,19 @@ std::string Mark10::moving_note(const char* way) const {
 
 void Mark10::refuse_silence() const {
   const std::string on = "palpate: on `" + path_ + "` ";
-  if (port_.lost()) throw LinkError(on + "the device hung up; check its cable");
-  if (first_bytes_.empty())
+  if (serial_.port.lost()) throw LinkError(on + "the device hung up; check its cable");
+  if (serial_.first_bytes.empty())
     throw LinkError(
         on +
         "nothing answers; switch the stand on, set CONTROL to CONSOLE, PC Control to on "
         "and the rate to " +
         std::to_string(mark10::baud) + " baud, and check the cable");
   // At another rate most bytes are not text; a fifth of them is enough for the diagnosis.
-  if (garbage_share(first_bytes_) > 0.2)
+  if (garbage_share(serial_.first_bytes) > 0.2)
     throw LinkError(on + "garbage answers, as at a wrong baud rate; set the stand and its gauge " +
                     "to " + std::to_string(mark10::baud) + " baud, 8 bits, no parity");
   throw LinkError(on + "a device answers in words that are no reading (`" +
-                  printable(first_bytes_) +
+                  printable(serial_.first_bytes) +
                   "`); is this the stand's port, and is the gauge plugged into the stand?");
 }
 
@@ -500,7 +480,7 @@ Fault Mark10::compare_limits(double low, double high) {
   };
   const auto got_low = ask_number("w");
   const auto got_high = ask_number("v");
-  if (port_.lost()) return Fault::hung_up;
+  if (serial_.port.lost()) return Fault::hung_up;
   if (!got_low || !got_high) return Fault::silent;
   const bool same = std::abs(in_metres(*got_low) - low) <= close &&
                     std::abs(in_metres(*got_high) - high) <= close;
@@ -535,7 +515,7 @@ Fault Mark10::set_travel_limits(double low, double high) {
 Fault Mark10::move(const Motion& motion) {
   if (motion.act == Motion::Act::stop) return stop() ? Fault::none : Fault::not_verified;
   if (purpose_ != Purpose::command || !limits_verified_) return Fault::refused;
-  if (port_.lost()) return Fault::hung_up;
+  if (serial_.port.lost()) return Fault::hung_up;
   if (!process_->alive()) return Fault::unguarded;
   if (!(motion.speed >= limits_.slowest) || !(motion.speed <= limits_.speed)) return Fault::refused;
   const auto speed = mark10::speed_command(motion.speed);
@@ -545,7 +525,7 @@ Fault Mark10::move(const Motion& motion) {
     return fault;
   send(speed->text());
   const auto got = ask_number("a");
-  if (port_.lost()) return Fault::hung_up;
+  if (serial_.port.lost()) return Fault::hung_up;
   if (!got) return Fault::silent;
   const auto read_back = mark10::metres_per_second(*got);
   if (!read_back || std::abs(*read_back - motion.speed) > 0.51 * mark10::speed_step)
@@ -564,7 +544,7 @@ bool Mark10::stop() {
 bool Mark10::confirm_stop() {
   // The stand brakes from its highest speed in about 0.1 s.
   const double until = wire_time() + patience(stop_repeat_time);
-  while (!has_status_ && wire_time() < until && !port_.lost()) {
+  while (!has_status_ && wire_time() < until && !serial_.port.lost()) {
     send("s");
     if (stands_still(2.0 * limits_.period)) return true;
   }
@@ -575,10 +555,10 @@ bool Mark10::confirm_stop() {
     if (status && status->moving == mark10::Status::Moving::stopped) return true;
     if (status && clock_.kind() == Clock::Kind::monotonic) pause(limits_.period);
     if (process_) process_->beat();
-  } while (wire_time() < until && !port_.lost());
+  } while (wire_time() < until && !serial_.port.lost());
   // Without a clear status, two equal readings of the travel count as a stop. They cannot detect
   // slow motion: at its lowest speed the stand moves by 0.02 mm, its resolution, in 2.4 s.
-  return !port_.lost() && stands_still(2.0 * limits_.period);
+  return !serial_.port.lost() && stands_still(2.0 * limits_.period);
 }
 
 bool Mark10::stands_still(double time) {

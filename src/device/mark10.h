@@ -17,7 +17,7 @@ namespace palpate::device {
 
 class Tap;
 
-class Mark10 {
+class Mark10 : public LinkParts {
  public:
   // Opens the port, ends the gauge's automatic output, and reads identity and settings. With
   // Purpose::command it also stops the stand, sets N and mm, and starts a guard process. Takes
@@ -27,9 +27,6 @@ class Mark10 {
   ~Mark10();
   Mark10(const Mark10&) = delete;
   Mark10& operator=(const Mark10&) = delete;
-
-  [[nodiscard]] const Identity& identity() const { return identity_; }
-  [[nodiscard]] const Limits& limits() const { return limits_; }
 
   // Requests force and travel unless a request is pending, and waits at most `wait` s for them. The
   // fault `guarded` says that the stand was stopped since the last sample by the guard process or
@@ -85,22 +82,15 @@ class Mark10 {
   Sample accept(const mark10::Pair& pair);
   bool is_late();
   void give_up();
-  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
-    return {.arrival = arrival, .fault = fault, .received = clock_.now()};
-  }
 
-  Clock& clock_;
   std::string path_;
   Purpose purpose_;
-  SerialPort port_;
+  SerialLines serial_;
   // Both are declared after the port, because they write before the port closes.
   std::unique_ptr<GuardProcess> process_;
   std::unique_ptr<StopGuard> guard_;
   unsigned signals_ = 0;  // StopGuard::signals_passed() at the last sample
-  LineBuffer lines_;
   mark10::PairReader pairs_;
-  Identity identity_;
-  Limits limits_;
   double sign_ = 1.0;  // of a compressive force, as the gauge sends it
   std::array<char, 8> unit_{};
   bool limits_verified_ = false;
@@ -115,10 +105,6 @@ class Mark10 {
   // first.
   std::array<double, 8> owed_{};
   std::size_t owed_count_ = 0;
-  std::optional<Sample> last_;  // the last fresh sample
-  Traffic traffic_;
-  std::string first_bytes_;  // received while greeting, for a diagnosis
-  bool greeting_ = true;
 };
 
 }  // namespace palpate::device

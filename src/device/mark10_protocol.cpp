@@ -2,7 +2,6 @@
 #include "device/mark10_protocol.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 

@@ -4,23 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/words.h"
+
 namespace palpate::device {
 
-std::string_view trip_text(Trip trip) {
-  switch (trip) {
-    case Trip::none: return "nothing has tripped";
-    case Trip::by_hand: return "it was disarmed";
-    case Trip::link_lost: return "the link is lost";
-    case Trip::inside_tissue: return "the finger was inside the tissue at the start";
-    case Trip::brake: return "the device's own safety has acted";
-    case Trip::force_ceiling: return "the force went beyond its ceiling";
-    case Trip::travel: return "the travel went beyond its limits";
-    case Trip::jump: return "the position jumped, as after a reset of the stand";
-    case Trip::overload: return "the gauge is overloaded";
-    case Trip::not_verified: return "the device did not confirm a limit or a stop";
-  }
-  return "unknown";
-}
+constexpr auto trips = words_of<Trip>({
+    {"none", "nothing has tripped"},
+    {"by_hand", "it was disarmed"},
+    {"link_lost", "the link is lost"},
+    {"inside_tissue", "the finger was inside the tissue at the start"},
+    {"brake", "the device's own safety has acted"},
+    {"force_ceiling", "the force went beyond its ceiling"},
+    {"travel", "the travel went beyond its limits"},
+    {"jump", "the position jumped, as after a reset of the stand"},
+    {"overload", "the gauge is overloaded"},
+    {"not_verified", "the device did not confirm a limit or a stop"},
+});
+
+const char* trip_text(Trip trip) { return trips[as_index(trip)].meaning; }
 
 bool Arming::arm() {
   armed_ = trip_ == Trip::none;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 #include "base/vec3.h"
 #include "device/sample.h"
@@ -24,7 +23,7 @@ enum class Trip : std::uint8_t {
   overload,       // the force is beyond what the gauge can measure
   not_verified,   // a limit or a stop was not confirmed
 };
-[[nodiscard]] std::string_view trip_text(Trip trip);  // a clause
+[[nodiscard]] const char* trip_text(Trip trip);  // a clause
 
 // A device is armed only on request, and never again after a trip.
 class Arming {

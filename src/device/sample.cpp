@@ -1,76 +1,65 @@
 // The words for faults and events, and the histogram of times.
 #include "device/sample.h"
 
+#include "base/words.h"
+
 namespace palpate::device {
 
-std::string_view fault_text(Fault fault) {
-  switch (fault) {
-    case Fault::none: return "nothing is wrong";
-    case Fault::garbage: return "bytes came that are no reply";
-    case Fault::truncated: return "a reply did not end in time";
-    case Fault::error_reply: return "the device refused a request";
-    case Fault::unit_changed: return "the device changed its unit";
-    case Fault::overload: return "the force is beyond what the gauge can measure";
-    case Fault::not_finite: return "a reply held a number that cannot be";
-    case Fault::missing_field: return "a reply held no position";
-    case Fault::wrong_device: return "another device answered";
-    case Fault::jump: return "the position jumped farther than the device can move";
-    case Fault::brake: return "the device's own safety has acted";
-    case Fault::stalled: return "the device says that a motor stalls";
-    case Fault::unstable: return "the device says that it is at its stability ceiling";
-    case Fault::not_verified: return "a setting did not read back as it was set";
-    case Fault::refused: return "the command is not allowed now";
-    case Fault::hung_up: return "the device hung up";
-    case Fault::silent: return "the device fell silent";
-    case Fault::recording_ended: return "the recording has ended";
-    case Fault::guarded: return "the stand was stopped, because the program stood still";
-    case Fault::unguarded: return "the process that guards the stand has ended";
-    case Fault::flooded: return "the device sends more than can be read";
-    case Fault::unknown_unit: return "a reading has a unit that is not known";
-    case Fault::clock_jumped: return "the device's own time jumped ahead";
-    case Fault::restarted: return "the device's own time went back, as after a restart";
-    case Fault::reframed: return "the service now turns or scales the arm's coordinates";
-  }
-  return "unknown";
-}
+namespace {
 
-std::string_view event_text(Event event) {
-  switch (event) {
-    case Event::other: return "other";
-    case Event::garbage: return "garbage";
-    case Event::other_device: return "other_device";
-    case Event::brake: return "ebrake_triggered";
-    case Event::released: return "ebrake_released";
-    case Event::stage_raised: return "fod_stage_raised";
-    case Event::stage_lowered: return "fod_stage_lowered";
-    case Event::stall: return "stall_detected";
-    case Event::ceiling: return "stability_ceiling";
-    case Event::safety: return "other_safety";
-    case Event::notice: return "other_safety_notice";
-    case Event::disconnected: return "device-disconnected";
-    case Event::busy: return "device-busy";
-  }
-  return "unknown";
-}
+constexpr auto faults = words_of<Fault>({
+    {"none", "nothing is wrong"},
+    {"garbage", "bytes came that are no reply"},
+    {"truncated", "a reply did not end in time"},
+    {"error_reply", "the device refused a request"},
+    {"unit_changed", "the device changed its unit"},
+    {"overload", "the force is beyond what the gauge can measure"},
+    {"not_finite", "a reply held a number that cannot be"},
+    {"missing_field", "a reply held no position"},
+    {"wrong_device", "another device answered"},
+    {"jump", "the position jumped farther than the device can move"},
+    {"brake", "the device's own safety has acted"},
+    {"stalled", "the device says that a motor stalls"},
+    {"unstable", "the device says that it is at its stability ceiling"},
+    {"not_verified", "a setting did not read back as it was set"},
+    {"refused", "the command is not allowed now"},
+    {"hung_up", "the device hung up"},
+    {"silent", "the device fell silent"},
+    {"recording_ended", "the recording has ended"},
+    {"guarded", "the stand was stopped, because the program stood still"},
+    {"unguarded", "the process that guards the stand has ended"},
+    {"flooded", "the device sends more than can be read"},
+    {"unknown_unit", "a reading has a unit that is not known"},
+    {"restarted", "the device's own time went back, as after a restart"},
+    {"clock_jumped", "the device's own time jumped ahead"},
+    {"reframed", "the service now turns or scales the arm's coordinates"},
+});
 
-Fault fault_of(Event event) {
-  switch (event) {
-    case Event::brake:
-    case Event::stage_raised:
-    case Event::safety: return Fault::brake;
-    case Event::stall: return Fault::stalled;
-    case Event::ceiling: return Fault::unstable;
-    case Event::disconnected: return Fault::hung_up;
-    case Event::other:
-    case Event::garbage:
-    case Event::other_device:
-    case Event::released:
-    case Event::stage_lowered:
-    case Event::notice:
-    case Event::busy: break;
-  }
-  return Fault::none;
-}
+struct EventRow {
+  const char* text;
+  Fault fault = Fault::none;
+};
+// In the order of Event.
+constexpr std::array events{EventRow{"other"},
+                            EventRow{"garbage"},
+                            EventRow{"other_device"},
+                            EventRow{"ebrake_triggered", Fault::brake},
+                            EventRow{"ebrake_released"},
+                            EventRow{"fod_stage_raised", Fault::brake},
+                            EventRow{"fod_stage_lowered"},
+                            EventRow{"stall_detected", Fault::stalled},
+                            EventRow{"stability_ceiling", Fault::unstable},
+                            EventRow{"other_safety", Fault::brake},
+                            EventRow{"other_safety_notice"},
+                            EventRow{"device-disconnected", Fault::hung_up},
+                            EventRow{"device-busy"}};
+static_assert(events.size() == event_kinds, "every event has its row");
+
+}  // namespace
+
+const char* fault_text(Fault fault) { return faults[as_index(fault)].meaning; }
+const char* event_text(Event event) { return events[as_index(event)].text; }
+Fault fault_of(Event event) { return events[as_index(event)].fault; }
 
 void LatencyHistogram::add(double time) {
   std::size_t bin = 0;

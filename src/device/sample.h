@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "device/clock.h"
 
 namespace palpate::device {
 
@@ -59,7 +60,7 @@ enum class Fault : std::uint8_t {
   reframed,         // an arm's service began to turn or scale its coordinates
 };
 inline constexpr std::size_t fault_kinds = as_index(Fault::reframed) + 1;
-[[nodiscard]] std::string_view fault_text(Fault fault);  // a clause: "the device hung up"
+[[nodiscard]] const char* fault_text(Fault fault);  // a clause: "the device hung up"
 
 // Position and velocity of a stand or a gauge are along z, upwards; those of an arm are in its
 // coordinates.
@@ -119,7 +120,7 @@ enum class Event : std::uint8_t {
 };
 inline constexpr std::size_t event_kinds = as_index(Event::busy) + 1;
 // The event's name in device_health.json: the service's own spelling if it has one.
-[[nodiscard]] std::string_view event_text(Event event);
+[[nodiscard]] const char* event_text(Event event);
 // The fault that the next sample reports after `event`. After hung_up the arm stays lost; brake,
 // stalled and unstable trip the link; none means that the event is only counted.
 [[nodiscard]] Fault fault_of(Event event);
@@ -164,6 +165,25 @@ struct Traffic {
   std::uint64_t discarded = 0;   // bytes that were not requested or found no room
   LatencyHistogram reply = {};   // s, from each request to its own reply, by the link's Clock
   Events events = {};
+};
+
+// What every link keeps.
+class LinkParts {
+ public:
+  explicit LinkParts(Clock& clock) : clock_(clock) {}
+  [[nodiscard]] const Identity& identity() const { return identity_; }
+  [[nodiscard]] const Limits& limits() const { return limits_; }
+
+ protected:
+  [[nodiscard]] Sample finished(Arrival arrival, Fault fault) const {
+    return {.arrival = arrival, .fault = fault, .received = clock_.now()};
+  }
+
+  Clock& clock_;
+  Identity identity_;
+  Limits limits_;
+  Traffic traffic_;
+  std::optional<Sample> last_;  // the last fresh sample
 };
 
 // A command to the stand's crosshead.

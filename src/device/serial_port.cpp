@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
@@ -20,6 +19,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "base/text.h"
 #include "device/clock.h"
 #include "device/tap.h"
 
@@ -78,25 +78,23 @@ constexpr timespec held_pause{.tv_sec = 0, .tv_nsec = 10'000'000};
 
 // Opens and locks the lock file of a device. Its name is that of the resolved path, so that a
 // symbolic link and its target have the same lock.
-int lock_for(const std::string& path, double until) {
+Descriptor lock_for(const std::string& path, double until) {
   char real[PATH_MAX];
   std::string name = ::realpath(path.c_str(), real) != nullptr ? real : path;
   for (char& c : name)
     if (c == '/') c = '_';
   for (const char* folder : {"/run/lock", "/tmp"}) {
     const std::string file = std::string(folder) + "/palpate" + name + ".lock";
-    const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    Descriptor lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (lock < 0) continue;
     while (true) {
       if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
       if (errno != EWOULDBLOCK || wire_time() > until) break;
       ::nanosleep(&held_pause, nullptr);
     }
-    const int error = errno;
-    ::close(lock);
-    if (error == EWOULDBLOCK) refuse(path, "is held by another palpate; end that one first");
+    if (errno == EWOULDBLOCK) refuse(path, "is held by another palpate; end that one first");
   }
-  return -1;  // neither folder is writable; TIOCEXCL alone locks the port
+  return {};  // neither folder is writable; TIOCEXCL alone locks the port
 }
 
 }  // namespace
@@ -107,13 +105,9 @@ bool is_known_rate(int baud) {
 }
 
 std::string known_rates() {
-  std::string list;
-  for (const Rate& rate : rates)
-    list += (&rate == &rates.front()  ? ""
-             : &rate == &rates.back() ? " or "
-                                      : ", ") +
-            std::to_string(rate.baud);
-  return list;
+  std::vector<std::string> list;
+  for (const Rate& rate : rates) list.push_back(std::to_string(rate.baud));
+  return alternatives(list);
 }
 
 SerialPort::SerialPort(const std::string& path, const LineFormat& format, Use use) : use_(use) {
@@ -124,14 +118,9 @@ SerialPort::SerialPort(const std::string& path, const LineFormat& format, Use us
   } while (file_ < 0 && errno == EBUSY && wire_time() < until &&
            ::nanosleep(&held_pause, nullptr) == 0);
   if (file_ < 0) refuse_open(path, errno);
-  try {
-    if (::isatty(file_) != 1)
-      refuse(path, "is no serial line; give that of the device, such as `/dev/ttyUSB0`");
-    if (use == Use::alone) lock_ = lock_for(path, until);
-  } catch (...) {
-    ::close(file_);
-    throw;
-  }
+  if (::isatty(file_) != 1)
+    refuse(path, "is no serial line; give that of the device, such as `/dev/ttyUSB0`");
+  if (use == Use::alone) lock_ = lock_for(path, until);
   if (use == Use::alone) ::ioctl(file_, TIOCEXCL);
   termios line{};
   bool set = ::tcgetattr(file_, &line) == 0;
@@ -147,29 +136,17 @@ SerialPort::SerialPort(const std::string& path, const LineFormat& format, Use us
   }
   if (!set) {
     const int error = errno;
-    release();
+    unlock();
     refuse(path, std::string("cannot be set up as a serial line: ") + std::strerror(error));
   }
   // The output is not flushed: it may still contain the stop of the program that used it before.
   ::tcflush(file_, TCIFLUSH);
 }
 
-SerialPort::SerialPort(SerialPort&& other) noexcept
-    : file_(std::exchange(other.file_, -1)),
-      lock_(std::exchange(other.lock_, -1)),
-      use_(other.use_),
-      lost_(other.lost_),
-      tap_(other.tap_) {}
+SerialPort::~SerialPort() { unlock(); }
 
-SerialPort::~SerialPort() { release(); }
-
-void SerialPort::release() {
-  if (file_ >= 0) {
-    if (use_ == Use::alone) ::ioctl(file_, TIOCNXCL);
-    ::close(file_);
-  }
-  if (lock_ >= 0) ::close(lock_);
-  file_ = lock_ = -1;
+void SerialPort::unlock() {
+  if (file_ >= 0 && use_ == Use::alone) ::ioctl(file_, TIOCNXCL);
 }
 
 bool SerialPort::write(std::string_view bytes) {
@@ -249,6 +226,43 @@ std::optional<std::string_view> LineBuffer::next() {
 std::string_view LineBuffer::rest() const { return {bytes_.data() + begin_, end_ - begin_}; }
 
 void LineBuffer::clear() { begin_ = end_ = 0; }
+
+constexpr std::size_t diagnosis_bytes = 400;
+constexpr int most_reads = 64;  // of 256 bytes: twice what 115200 baud carry in 0.7 s
+
+SerialLines::SerialLines(const std::string& path, const LineFormat& format, Tap* tap,
+                         SerialPort::Use use)
+    : port(path, format, use) {
+  port.tap(tap);
+  first_bytes.reserve(diagnosis_bytes);
+}
+
+std::string_view SerialLines::read(std::span<char> bytes, double until) {
+  const auto read = port.read(bytes, until);
+  if (read.outcome != SerialPort::Outcome::bytes) return {};
+  const std::string_view got(bytes.data(), read.size);
+  first_bytes += got.substr(0, diagnosis_bytes - first_bytes.size());
+  return got;
+}
+
+bool SerialLines::receive(double until) {
+  std::array<char, 256> bytes;
+  const std::string_view got = read(bytes, until);
+  lines.feed(got);
+  return !got.empty();
+}
+
+std::size_t SerialLines::drain() {
+  std::array<char, 256> bytes;
+  std::size_t size = lines.rest().size();
+  lines.clear();
+  for (int reads = 0; reads < most_reads; ++reads) {
+    const std::string_view got = read(bytes, 0.0);
+    if (got.empty()) break;
+    size += got.size();
+  }
+  return size;
+}
 
 std::string_view without_outer_spaces(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);

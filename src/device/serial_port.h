@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/files.h"
+
 namespace palpate::device {
 
 class Tap;
@@ -30,8 +32,7 @@ class SerialPort {
   // permitted, not a serial line, or in use, and if it cannot have the rate.
   SerialPort(const std::string& path, const LineFormat& format, Use use = Use::alone);
   ~SerialPort();
-  SerialPort(SerialPort&& other) noexcept;
-  SerialPort& operator=(SerialPort&&) = delete;
+  SerialPort(SerialPort&& other) noexcept = default;
 
   // True if all bytes were accepted; false if the line is lost or its queue is full.
   bool write(std::string_view bytes);
@@ -51,10 +52,10 @@ class SerialPort {
   [[nodiscard]] int descriptor() const { return file_; }
 
  private:
-  void release();
+  void unlock();
 
-  int file_ = -1;
-  int lock_ = -1;
+  Descriptor lock_;
+  Descriptor file_;  // closed before the lock
   Use use_;
   bool lost_ = false;
   Tap* tap_ = nullptr;
@@ -80,6 +81,24 @@ class LineBuffer {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::size_t dropped_ = 0;
+};
+
+// A port with its bytes as lines, and the first ones for a diagnosis.
+struct SerialLines {
+  SerialPort port;
+  LineBuffer lines;
+  std::string first_bytes;
+
+  SerialLines(const std::string& path, const LineFormat& format, Tap* tap,
+              SerialPort::Use use = SerialPort::Use::alone);
+  // Waits until `until` (s, wire_time()) for bytes, and takes them. False if none have come.
+  bool receive(double until);
+  // Discards what has arrived, which replies to no request that follows: the number of bytes.
+  std::size_t drain();
+
+ private:
+  // Reads into `bytes`; empty if there are none.
+  std::string_view read(std::span<char> bytes, double until);
 };
 
 [[nodiscard]] std::string_view without_outer_spaces(std::string_view text);  // and tabs

@@ -49,16 +49,20 @@ std::atomic<unsigned> passed_stops = 0;  // that were sent before a signal
 alignas(16) std::array<char, 65536> handler_stack;
 std::array<struct sigaction, NSIG> before{};  // by signal; written before a handler can read them
 
+// A full queue is emptied and the write repeated, because the stop matters more than its content.
+void write_stop(int line, std::string_view bytes) {
+  for (int tries = 0; tries < 3 && !bytes.empty(); ++tries) {
+    if (::write(line, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size())) return;
+    if (errno == EAGAIN) ::tcflush(line, TCOFLUSH);
+  }
+}
+
 void write_packed(int file, unsigned value) {
   char bytes[4];
   std::size_t size = 0;
   for (; size < 4 && (value >> (8 * size) & 0xffu) != 0; ++size)
     bytes[size] = static_cast<char>(value >> (8 * size) & 0xffu);
-  // A full queue is emptied and the write repeated, because the stop matters more than its content.
-  for (int tries = 0; tries < 3 && size > 0; ++tries) {
-    if (::write(file, bytes, size) == static_cast<ssize_t>(size)) return;
-    if (errno == EAGAIN) ::tcflush(file, TCOFLUSH);
-  }
+  write_stop(file, {bytes, size});
 }
 
 void send_stop() {
@@ -177,14 +181,6 @@ constexpr int most_stops = 10;       // in half a second, as Mark10::stop()
 constexpr double deaf_time = 0.25;   // s without a look, after which the guard counts as dead
 constexpr int priority = 90;         // above that of --realtime, of 1 to 99
 
-// A full queue is emptied first, because the stop matters more than its content.
-void write_stop(int line, const char* bytes) {
-  for (int tries = 0; tries < 3; ++tries) {
-    if (::write(line, bytes, std::strlen(bytes)) >= 0) return;
-    if (errno == EAGAIN) ::tcflush(line, TCOFLUSH);
-  }
-}
-
 void leave_the_terminal() {
   ::setsid();
   ::prctl(PR_SET_NAME, "stand-stop");  // `pkill palpate` does not find it
@@ -249,8 +245,10 @@ GuardProcess::GuardProcess(int file, Heed heed) : heed_(heed) {
     throw LinkError(std::string("palpate: the process that guards the stand cannot be started: ") +
                     std::strerror(errno) + "; end some programs and try again");
   };
-  std::array<int, 2> ends{-1, -1};
+  std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) refuse();
+  socket_ = ends[0];
+  const Descriptor others = ends[1];
   void* memory =
       ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) refuse();
@@ -265,17 +263,15 @@ GuardProcess::GuardProcess(int file, Heed heed) : heed_(heed) {
   if (child_ != 0) ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (child_ < 0) refuse();
   if (child_ == 0) {
-    ::close(ends[0]);
+    socket_ = {};
     // Above the standard streams, which the guard gives up.
-    guard(::fcntl(file, F_DUPFD, 3), ::fcntl(ends[1], F_DUPFD, 3), *shared_, heed);
+    guard(::fcntl(file, F_DUPFD, 3), ::fcntl(others, F_DUPFD, 3), *shared_, heed);
   }
-  ::close(ends[1]);
-  socket_ = ends[0];
 }
 
 GuardProcess::~GuardProcess() {
   (void)::send(socket_, "e", 1, MSG_NOSIGNAL);
-  ::close(socket_);
+  socket_ = {};
   // A guard that is stopped would never end.
   if (!ended_) ::kill(child_, SIGCONT);
   while (!ended_ && ::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {

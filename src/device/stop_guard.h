@@ -6,6 +6,8 @@
 
 #include <string_view>
 
+#include "base/files.h"
+
 namespace palpate::device {
 
 // Writes `bytes` (at most 4, none of them 0) to the descriptor `file` when it is destroyed (also by
@@ -62,7 +64,7 @@ class GuardProcess {
   struct Shared;
   Shared* shared_ = nullptr;  // in memory that both processes have
   Heed heed_;
-  int socket_ = -1;
+  Descriptor socket_;
   pid_t child_ = -1;
   bool ended_ = false;
   unsigned seen_ = 0;  // stops of the guard at the last call of has_acted()

@@ -15,10 +15,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <chrono>
 #include <cstddef>
 #include <future>
+#include <memory_resource>
 #include <thread>
 
 #include "base/error.h"
@@ -37,53 +37,21 @@ using Error = boost::system::error_code;
 using Executor = net::io_context::executor_type;
 using Socket = net::basic_stream_socket<net::ip::tcp, Executor>;
 
-// Memory for the few operations that can be pending at once.
-class Arena {
- public:
-  void* take(std::size_t size) {
-    for (std::size_t i = 0; size <= slot_size && i < slots; ++i) {
-      if (used_[i]) continue;
-      used_[i] = true;
-      return memory_.data() + i * slot_size;
-    }
-    return ::operator new(size);
-  }
-  void give_back(void* pointer) {
-    auto* byte = static_cast<std::byte*>(pointer);
-    if (std::less<>()(byte, memory_.data()) ||
-        !std::less<>()(byte, memory_.data() + memory_.size()))
-      return ::operator delete(pointer);
-    used_[as_index(byte - memory_.data()) / slot_size] = false;
-  }
-
- private:
-  static constexpr std::size_t slots = 16;
-  static constexpr std::size_t slot_size = 2048;
-  alignas(std::max_align_t) std::array<std::byte, slots * slot_size> memory_;
-  std::bitset<slots> used_;
-};
-
-template <class T>
-struct ArenaAllocator {
-  using value_type = T;  // NOLINT: the standard's name
-  Arena* arena;
-
-  explicit ArenaAllocator(Arena* from) : arena(from) {}
-  template <class U>
-  ArenaAllocator(const ArenaAllocator<U>& other) : arena(other.arena) {}  // NOLINT: rebinding
-  T* allocate(std::size_t n) { return static_cast<T*>(arena->take(n * sizeof(T))); }
-  void deallocate(T* pointer, std::size_t) { arena->give_back(pointer); }
-  bool operator==(const ArenaAllocator& other) const { return arena == other.arena; }
+// Memory for the few operations that can be pending at once, taken when the connection opens.
+struct Arena {
+  std::array<std::byte, 131072> memory;
+  std::pmr::monotonic_buffer_resource all{memory.data(), memory.size()};
+  std::pmr::unsynchronized_pool_resource pool{{16, 2048}, &all};
 };
 
 // A handler with the arena as its associated allocator.
 template <class Function>
 struct InArena {
-  using allocator_type = ArenaAllocator<std::byte>;  // NOLINT: the standard's name
+  using allocator_type = std::pmr::polymorphic_allocator<std::byte>;  // NOLINT: the standard's name
   Arena* arena;
   Function function;
 
-  [[nodiscard]] allocator_type get_allocator() const { return allocator_type(arena); }
+  [[nodiscard]] allocator_type get_allocator() const { return &arena->pool; }
   template <class... Arguments>
   void operator()(Arguments&&... arguments) {
     function(std::forward<Arguments>(arguments)...);

@@ -2,7 +2,7 @@
 #include "emulator/files.h"
 
 #include "base/error.h"
-#include "base/field_reader.h"
+#include "base/fields.h"
 #include "base/files.h"
 #include "base/text.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/pages.h"
+#include "commands/command.h"
 #include "emulator/arm.h"
 #include "emulator/files.h"
 #include "emulator/line_gauge.h"

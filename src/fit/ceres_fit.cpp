@@ -8,14 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "base/dense.h"
 #include "base/index.h"
-#include "fit/regression.h"
 
 namespace palpate::fit {
 

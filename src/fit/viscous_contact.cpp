@@ -11,7 +11,6 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "fit/ceres_fit.h"
-#include "fit/contact_search.h"
 #include "fit/residuals.h"
 
 namespace palpate::fit {

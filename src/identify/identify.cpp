@@ -16,7 +16,6 @@
 #include "fit/residuals.h"
 #include "identify/box_search.h"
 #include "identify/prepare_curve.h"
-#include "identify/scenario_curve.h"
 #include "identify/tables.h"
 #include "scenario/integrators.h"
 

@@ -129,4 +129,11 @@ struct Pair {
                                       const std::vector<Unknown>& unknowns,
                                       const IdentifyOptions& options = {});
 
+// Repeats the search with each given a standard deviation lower and higher, and widens the
+// intervals of the unknowns: the variance of an estimate grows by the square of half the difference
+// (docs/theory.md [givens]). The parts are kept in Identification::givens. `family` has the values
+// set.
+void carry_givens(Identification& found, const Measurement& measured,
+                  const scenario::Family& family, const std::vector<Given>& givens, Noise noise);
+
 }  // namespace palpate::identify

@@ -2,12 +2,9 @@
 #include "identify/scenario_curve.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "base/error.h"
 #include "base/stop_scope.h"
@@ -16,8 +13,8 @@
 #include "run/family.h"
 #include "run/refined_mesh.h"
 #include "scenario/integrators.h"
+#include "scenario/programme.h"
 #include "scene/scene.h"
-#include "scene/specimen_shape.h"
 
 namespace palpate::identify {
 namespace {
@@ -380,29 +377,10 @@ std::optional<ClosedCurve> ScenarioCurve::formula() const {
 // The loading history is lengthened where its end alone would leave rows of the measurement out.
 
 std::optional<double> duration(const scenario::Scenario& scenario) {
-  double time = 0.0;
-  double travel = 0.0;
-  for (const scenario::Step& step : scenario.steps) {
-    if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
-      if (indent->to.second) return std::nullopt;
-      time += (indent->to.value - travel) / indent->rate;
-      travel = indent->to.value;
-    } else if (const auto* retract = std::get_if<scenario::Retract>(&step)) {
-      time += (travel - retract->to) / retract->rate;
-      travel = retract->to;
-    } else if (const auto* hold = std::get_if<scenario::Hold>(&step)) {
-      time += hold->time;
-    } else if (const auto* slide = std::get_if<scenario::Slide>(&step)) {
-      time += slide->by / slide->rate;
-    } else if (const auto* creep = std::get_if<scenario::Creep>(&step)) {
-      time += creep->load_time + creep->recovery_time;
-    } else if (const auto* relax = std::get_if<scenario::Relax>(&step)) {
-      time += relax->time;
-    } else if (const auto* compress = std::get_if<scenario::Compress>(&step)) {
-      time += compress->ramp_time() + compress->hold_time;
-    }
-  }
-  return time;
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* indent = std::get_if<scenario::Indent>(&step); indent && indent->to.second)
+      return std::nullopt;
+  return scenario::programme_time(scenario);
 }
 
 namespace {

@@ -1,4 +1,5 @@
-// The unknowns of an identification, with their ranges and scales.
+// The unknowns of an identification, with their ranges and scales; and known numbers of a scenario
+// with their uncertainty: `finger.radius=11 mm +- 0.2 mm`.
 #pragma once
 
 #include <optional>
@@ -7,7 +8,7 @@
 #include <vector>
 
 #include "base/units.h"
-#include "scenario/scenario.h"
+#include "scenario/family.h"
 
 namespace palpate::identify {
 
@@ -55,5 +56,23 @@ struct Unknown {
 // Sets those unknowns that are keys of the scenario; `values` in SI, in the order of `unknowns`.
 void set_unknowns(scenario::Scenario& scenario, std::span<const Unknown> unknowns,
                   std::span<const double> values);
+
+// A key of the scenario with its value and standard deviation, SI.
+struct Given {
+  std::string key;
+  std::optional<Unit> unit;
+  double value = 0.0;
+  double deviation = 0.0;
+};
+
+// Reads `KEY=VALUE +- SD`, with `+-` or the plus-minus sign. Throws InputError for unknown keys,
+// for keys that are unknowns as well, for numbers outside the key's limits and for deviations that
+// are not above 0.
+[[nodiscard]] std::vector<Given> read_givens(const std::vector<std::string>& texts,
+                                             const scenario::Scenario& scenario,
+                                             const std::vector<Unknown>& unknowns);
+
+// Sets the values in the family's first case.
+void set_givens(scenario::Family& family, const std::vector<Given>& givens);
 
 }  // namespace palpate::identify

@@ -1,5 +1,5 @@
 // The collecting thread: takes rows and traffic from their queues, keeps the rows and writes files.
-#include "live/log.h"
+#include "live/loop.h"
 
 #include <algorithm>
 #include <filesystem>

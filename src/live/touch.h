@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact/relaxation.h"
+#include "contact/viscous_contact.h"
 
 namespace palpate::live {
 

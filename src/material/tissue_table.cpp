@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <string_view>
-#include <utility>
 
-#include "base/field_reader.h"
+#include "base/fields.h"
 #include "base/files.h"
 #include "base/text.h"
 

@@ -13,7 +13,6 @@
 #include "base/text.h"
 #include "measured/columns.h"
 #include "measured/table.h"
-#include "measured/unit.h"
 
 namespace palpate::measured {
 namespace {

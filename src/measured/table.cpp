@@ -2,15 +2,13 @@
 #include "measured/table.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
-#include <span>
 
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
-#include "measured/unit.h"
+#include "measured/columns.h"
 
 namespace palpate::measured {
 namespace {
@@ -450,10 +448,6 @@ RawTable main_table(std::span<const Line> lines, std::vector<TableRow> rows,
   merged.tables = alike.size();
   return merged;
 }
-
-}  // namespace
-
-namespace {
 
 // LabVIEW's .lvm: headings from `Channels` to `***End_of_Header***`, one before each table, with
 // the units of the columns. Takes the headings out of the lines and returns their cells of units

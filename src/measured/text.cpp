@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/written.h"
 #include "measured/table.h"
 
 namespace palpate::measured {
@@ -56,27 +56,6 @@ std::string from_utf16(std::string_view bytes, std::size_t high, const std::stri
     append_utf8(text, code);
   }
   return text;
-}
-
-bool is_utf8(std::string_view text) {
-  std::size_t follow = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (follow > 0) {
-      if ((byte & 0xC0U) != 0x80U) return false;
-      --follow;
-    } else if (byte >= 0x80U) {
-      if (byte >= 0xC2U && byte < 0xE0U)
-        follow = 1;
-      else if (byte >= 0xE0U && byte < 0xF0U)
-        follow = 2;
-      else if (byte >= 0xF0U && byte < 0xF5U)
-        follow = 3;
-      else
-        return false;
-    }
-  }
-  return follow == 0;
 }
 
 // Files that hold no text, by their first bytes, and what to do with them.
@@ -128,7 +107,7 @@ std::string utf8_of(std::string_view bytes, const std::string& file) {
   refuse_binary(bytes, file);
   if (const auto high = unmarked_utf16(bytes)) return from_utf16(bytes, *high, file);
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  if (is_utf8(bytes)) return std::string(bytes);
+  if (first_broken_character(bytes) == bytes.size()) return std::string(bytes);
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); ++i) append_utf8(text, at(bytes, i));
   return text;
@@ -152,18 +131,6 @@ std::vector<Line> lines_of(std::string_view bytes, const std::string& file) {
   return lines;
 }
 
-namespace {
-
-// The column of a byte's character, from 1: continuation bytes are not counted.
-int column_at(const std::string& text, std::size_t byte) {
-  int column = 1;
-  for (std::size_t i = 0; i < byte && i < text.size(); ++i)
-    if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) ++column;
-  return column;
-}
-
-}  // namespace
-
 std::vector<Piece> pieces_of(const Line& line, char separator, const std::string& file) {
   const std::string& text = line.text;
   const bool blank = separator == ' ';
@@ -174,7 +141,7 @@ std::vector<Piece> pieces_of(const Line& line, char separator, const std::string
   while (true) {
     next = std::min(text.find_first_not_of(padding, next), text.size());
     if (blank && next == text.size()) return pieces;
-    Piece piece{{}, column_at(text, next)};
+    Piece piece{{}, 1 + static_cast<int>(letter_count(std::string_view(text).substr(0, next)))};
     std::size_t end = 0;
     if (next < text.size() && text[next] == '"') {
       std::size_t i = next + 1;

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "base/text.h"
-#include "measured/unit.h"
+#include "measured/columns.h"
 #include "record/csv.h"
 #include "report/manifest.h"
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "record/pressure_map.h"
+#include "record/record.h"
 
 namespace palpate::report {
 

@@ -5,7 +5,7 @@
 
 #include "page/html.h"
 #include "plot/gnuplot.h"
-#include "record/pressure_map.h"
+#include "record/record.h"
 
 namespace palpate::report {
 

@@ -21,7 +21,6 @@
 #include "scene/proportions.h"
 #include "tissue/coupled.h"
 #include "tissue/network.h"
-#include "tissue/springs.h"
 
 namespace palpate::run {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "contact/hertz.h"
-#include "contact/layer_integral.h"
+#include "contact/layer.h"
 #include "mechanics/contacts.h"
-#include "record/pressure_map.h"
+#include "record/record.h"
 
 namespace palpate::run {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanics/contacts.h"
-#include "record/pressure_map.h"
+#include "record/record.h"
 #include "solid/finger_press.h"
 
 namespace palpate::run {

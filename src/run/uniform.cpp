@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "base/stop_scope.h"
-#include "contact/relaxation.h"
+#include "contact/viscous_contact.h"
 #include "mechanics/monitor.h"
 #include "mechanics/stepper.h"
 #include "run/picture.h"

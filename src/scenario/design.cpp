@@ -9,9 +9,7 @@
 #include <numeric>
 #include <random>
 #include <set>
-#include <string_view>
 
-#include "base/document.h"
 #include "base/index.h"
 #include "base/text.h"
 

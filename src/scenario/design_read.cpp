@@ -48,10 +48,7 @@ void refuse_unknown_keys(const Node& table) {
   const std::vector<std::string> known{"from", "to", "points", "scale"};
   for (const Member& member : table.members) {
     if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
-    const auto near = nearest(member.key, known);
-    throw InputError(member.place, ticked(member.key) + " is not a key here; " +
-                                       (near ? "did you mean " + ticked(*near) + "?"
-                                             : "known keys: " + joined(known, ", ")));
+    throw InputError(member.place, no_key_text(member.key, known));
   }
 }
 
@@ -175,18 +172,9 @@ class DesignReader {
     if (design == nullptr) return Kind::grid;
     const Node& value = design->value;
     const std::vector<std::string>& words = design_words();
-    const std::string known = joined(words, ", ");
-    if (value.kind != Node::Kind::text)
-      throw InputError(value.place, "`design` wants one of " + known + ", got " +
-                                        value.kind_name() + "; write it as `design = \"grid\"`");
     const auto word = std::find(words.begin(), words.end(), value.text);
-    if (word == words.end()) {
-      const auto near = nearest(value.text, words);
-      throw InputError(value.place,
-                       "`design` does not know " + ticked(value.text) +
-                           (near ? "; did you mean " + ticked(*near) + "? It" : "; it") +
-                           " is one of " + known);
-    }
+    if (value.kind != Node::Kind::text || word == words.end())
+      throw InputError(value.place, no_word_text("design", value, words));
     return static_cast<Kind>(word - words.begin());
   }
 

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <set>
 
-#include "base/field_reader.h"
-#include "base/field_writer.h"
+#include "base/fields.h"
 #include "base/files.h"
 #include "base/text.h"
 
@@ -222,11 +219,9 @@ void Trial::check_names(const Place& sweep) {
   for (const Case& one : family_.cases) names.push_back(one.name);
   for (const auto& [name, factor] : family_.base.output.display_scale) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    const auto near = nearest(name, names);
-    add_problems(
-        {{place_of(family_.document, "output.display_scale." + name),
-          "`display_scale` names no case `" + name + "`" +
-              (near ? "; did you mean `" + *near + "`?" : "; cases: " + joined(names, ", "))}});
+    add_problems({{place_of(family_.document, "output.display_scale." + name),
+                   "`display_scale` names no case `" + name + "`; " +
+                       did_you_mean(name, names, "cases: " + joined(names, ", "))}});
   }
   const std::set<std::string> different(names.begin(), names.end());
   if (different.size() != names.size())

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -262,9 +261,8 @@ std::string meaning_of_key(const std::string& asked) {
     return "`" + key + "` is a built-in value of `tissue.material`:\n" + table;
   if (const std::string keys = keys_that_name(key); !keys.empty())
     return "`" + key + "` is no key; these have to do with it:\n" + keys;
-  const auto near = nearest(key, known);
-  refuse("`" + asked + "` is neither a file nor a key" +
-         (near ? "; did you mean `" + *near + "`?" : "; `palpate manual` lists all keys"));
+  refuse("`" + asked + "` is neither a file nor a key; " +
+         did_you_mean(key, known, "`palpate manual` lists all keys"));
 }
 
 std::span<const Starter> starters() {

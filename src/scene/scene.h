@@ -9,7 +9,7 @@
 
 #include "contact/law.h"
 #include "contact/layer.h"
-#include "contact/relaxation.h"
+#include "contact/viscous_contact.h"
 #include "geometry/curved_edges.h"
 #include "geometry/shapes.h"
 #include "geometry/smooth_surface.h"

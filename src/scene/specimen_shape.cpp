@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/field_writer.h"
+#include "base/fields.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "contact/hertz.h"

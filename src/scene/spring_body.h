@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "integrate/body.h"
+#include "tissue/network.h"
 #include "tissue/spring_loop.h"
-#include "tissue/springs.h"
 #include "tissue/viscous.h"
 
 namespace palpate::scene {

@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "contact/elliptic.h"
 #include "contact/hertz.h"
 #include "geometry/box_tree.h"
 #include "geometry/shapes.h"

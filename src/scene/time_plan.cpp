@@ -6,7 +6,7 @@
 
 #include "scenario/integrators.h"
 #include "scene/scene.h"
-#include "tissue/stable_step.h"
+#include "tissue/network.h"
 
 namespace palpate::scene {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/front_cholesky.h"
+#include "base/cholesky.h"
 #include "base/symmetric_solver.h"
 #include "solid/elements.h"
 

@@ -16,7 +16,7 @@
 #include "mechanics/stepper.h"
 #include "run/refined_mesh.h"
 #include "scene/first_touch.h"
-#include "tissue/stable_step.h"
+#include "tissue/network.h"
 
 namespace palpate::stability {
 

@@ -46,10 +46,8 @@ std::optional<std::size_t> rank(const std::string& column) {
 std::size_t place(const std::string& column, std::span<const std::string> header) {
   const auto found = std::find(header.begin(), header.end(), column);
   if (found != header.end()) return as_index(found - header.begin());
-  const auto near = nearest(column, header);
-  throw InputError({}, "the results have no column `" + column + "`" +
-                           (near ? "; did you mean `" + *near + "`?"
-                                 : "; the first row of results.csv names them"));
+  throw InputError({}, "the results have no column `" + column + "`; " +
+                           did_you_mean(column, header, "the first row of results.csv names them"));
 }
 
 double word_number(FactorColumn& factor, const std::string& word) {

@@ -445,7 +445,7 @@ FolderLock::FolderLock(const std::string& folder, const std::string& name) {
                  name + " at once, which costs time and does no harm";
       return;
     }
-    ::close(file_);
+    file_ = {};
     const std::string text = trimmed(read_text(path));
     const std::string who = text.empty() ? "another process" : text;
     if (reason == EWOULDBLOCK)
@@ -457,8 +457,6 @@ FolderLock::FolderLock(const std::string& folder, const std::string& name) {
   // The text only informs users: if it cannot be written, the lock holds all the same.
   if (::ftruncate(file_, 0) != 0 || ::pwrite(file_, who.data(), who.size(), 0) < 0) return;
 }
-
-FolderLock::~FolderLock() { ::close(file_); }
 
 namespace {
 

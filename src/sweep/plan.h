@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "scenario/family.h"
 
 namespace palpate::sweep {
@@ -38,14 +39,11 @@ class FolderLock {
   // the lock, and SystemError if the file cannot be made or locked. Where the file system has no
   // locks, there is none, and warning() says so: two runs of a part do no harm.
   FolderLock(const std::string& folder, const std::string& name);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
   [[nodiscard]] const std::string& warning() const { return warning_; }  // a sentence, or empty
 
  private:
-  int file_ = -1;
+  Descriptor file_;
   std::string warning_;
 };
 

@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "tissue/springs.h"
+#include "tissue/network.h"
 
 namespace palpate::tissue {
 
-// The loops of springs.h for kinematics that are not linear, vectorised with the same bits on any
+// The loops of network.h for kinematics that are not linear, vectorised with the same bits on any
 // processor. Use one copy per thread.
 class SpringLoop {
  public:

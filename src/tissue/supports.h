@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/tet_mesh.h"
-#include "tissue/springs.h"
+#include "tissue/network.h"
 
 namespace palpate::tissue {
 

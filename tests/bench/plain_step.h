@@ -12,7 +12,7 @@
 #include "meshing/tetgen.h"
 #include "plain_springs.h"
 #include "tissue/coupled.h"
-#include "tissue/springs.h"
+#include "tissue/network.h"
 #include "tissue/stiffness.h"
 #include "tissue/viscous.h"
 

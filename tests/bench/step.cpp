@@ -13,7 +13,7 @@
 #include "integrate/central_difference.h"
 #include "mechanics/monitor.h"
 #include "scene/spring_body.h"
-#include "tissue/stable_step.h"
+#include "tissue/network.h"
 
 namespace palpate {
 namespace {

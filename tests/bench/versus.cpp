@@ -19,7 +19,7 @@
 #include "bench/plain_step.h"
 #include "integrate/central_difference.h"
 #include "scene/spring_body.h"
-#include "tissue/stable_step.h"
+#include "tissue/network.h"
 
 namespace palpate {
 namespace {

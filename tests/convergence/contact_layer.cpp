@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/layer_integral.h"
+#include "contact/layer.h"
 #include "layer_at_chi.h"
 
 namespace palpate::contact {

@@ -2,7 +2,7 @@
 // was written, and the loop goes on.
 #include <gtest/gtest.h>
 
-#include "live/log.h"
+#include "live/loop.h"
 #include "live_session.h"
 
 namespace palpate {

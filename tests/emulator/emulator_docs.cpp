@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/document.h"
-#include "base/field_writer.h"
+#include "base/fields.h"
 #include "base/files.h"
 #include "emulator/arm.h"
 #include "emulator/files.h"

@@ -21,7 +21,7 @@ void palpate::fuzz::events(const std::uint8_t* data, std::size_t size) {
   using namespace device;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const Event event = inverse3::parse_event(bytes, "049D");
-  require(event_text(event) != "unknown");
+  require(*event_text(event) != '\0');
   const Fault fault = fault_of(event);
   if (fault == Fault::hung_up) {
     require(has(bytes, "device-disconnected"));

@@ -1,5 +1,5 @@
 // Any text as a recorded run: its samples are finite and their times never decrease.
-#include "device/recording.h"
+#include "device/link.h"
 
 #include <cmath>
 

@@ -11,7 +11,7 @@
 #include "scenario/family.h"
 #include "scene/scene.h"
 #include "scene_text.h"
-#include "tissue/springs.h"
+#include "tissue/network.h"
 
 namespace palpate::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/stop_scope.h"
 #include "base/text.h"
 #include "identify/box_search.h"
-#include "identify/givens.h"
+#include "identify/unknowns.h"
 #include "identify_scenes.h"
 #include "record/csv.h"
 #include "refusal.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/elliptic.h"
 #include "contact/hertz.h"
 #include "every.h"
 #include "mechanics/pressed_mesh.h"

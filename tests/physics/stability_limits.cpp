@@ -6,7 +6,7 @@
 
 #include "scenario/words.h"
 #include "stability/measure.h"
-#include "tissue/stable_step.h"
+#include "tissue/network.h"
 
 namespace palpate::stability {
 namespace {

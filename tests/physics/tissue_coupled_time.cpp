@@ -11,7 +11,7 @@
 #include "jittered_block.h"
 #include "plain_energy.h"
 #include "plain_springs.h"
-#include "tissue/stable_step.h"
+#include "tissue/network.h"
 #include "tissue/stiffness.h"
 
 namespace palpate {

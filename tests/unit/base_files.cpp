@@ -160,6 +160,29 @@ TEST_F(Files, AGrowingFileIsNew) {
   EXPECT_THROW(GrowingFile again(path_), SystemError);
 }
 
+TEST(Descriptor, IsClosedOnceByItsLastOwner) {
+  const auto is_open = [](int file) { return ::fcntl(file, F_GETFD) >= 0; };
+  int first = -1;
+  int second = -1;
+  {
+    Descriptor one = ::open("/dev/null", O_RDONLY);
+    first = one;
+    Descriptor other = std::move(one);
+    EXPECT_TRUE(is_open(first));
+    EXPECT_EQ(other, first);
+    other = ::open("/dev/null", O_WRONLY);
+    EXPECT_FALSE(is_open(first));
+    second = other;
+    EXPECT_TRUE(is_open(second));
+  }
+  EXPECT_FALSE(is_open(second));
+  Descriptor given = ::open("/dev/null", O_RDONLY);
+  const int released = given.release();
+  given = {};
+  EXPECT_TRUE(is_open(released));
+  EXPECT_EQ(::close(released), 0);
+}
+
 TEST(Sha256, PartsAreTheWhole) {
   Sha256 hash;
   hash.add("a");

@@ -1,6 +1,6 @@
 // The multifrontal factorisation against dense algebra.
+#include "base/cholesky.h"
 #include "base/dense.h"
-#include "base/front_cholesky.h"
 
 #include <gtest/gtest.h>
 

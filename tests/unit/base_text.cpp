@@ -83,6 +83,12 @@ TEST(Text, TheNearestWordIsSuggestedWhereOneIsNear) {
   EXPECT_FALSE(nearest("skin", {}));
 }
 
+TEST(Text, WithoutANearWordTheOtherRemedyIsTold) {
+  const Words known{"skin", "muscle"};
+  EXPECT_EQ(did_you_mean("skn", known, "give another"), "did you mean `skin`?");
+  EXPECT_EQ(did_you_mean("granite", known, "give another"), "give another");
+}
+
 TEST(Text, OfTwoNearWordsCapitalsDecide) {
   EXPECT_EQ(nearest("KPA", Words{"Pa", "kPa"}), "kPa");
   EXPECT_EQ(nearest("mpa", Words{"Pa", "kPa", "MPa"}), "MPa");
@@ -93,6 +99,9 @@ TEST(Text, WordsAreCutAndJoined) {
   EXPECT_EQ(split("", '.'), Words{""});
   EXPECT_EQ(joined(Words{"a", "b"}, ", "), "a, b");
   EXPECT_EQ(joined(Words{}, ", "), "");
+  EXPECT_EQ(alternatives(Words{"a", "b", "c"}), "a, b or c");
+  EXPECT_EQ(alternatives(Words{"a"}), "a");
+  EXPECT_EQ(alternatives(Words{}), "");
   EXPECT_EQ(trimmed(" \t a b\r\n"), "a b");
   EXPECT_EQ(trimmed(" \n"), "");
 }

@@ -4,8 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include "commands/command.h"
-#include "commands/complete.h"
-#include "commands/pages.h"
 
 namespace palpate::commands {
 namespace {

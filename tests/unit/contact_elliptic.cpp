@@ -1,5 +1,4 @@
 // Elliptic contact: against Hertz's circle, the half-space's own integrals and 60-digit references.
-#include "contact/elliptic.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,4 @@
 // Several layers on each other: as one where they are alike, and where one of them is rigid.
-#include "contact/layer_integral.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Relaxation, creep and the finger before them: closed forms, their convolution, rows of group KV.
-#include "contact/relaxation.h"
+#include "contact/viscous_contact.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,5 +1,5 @@
 // Recordings: read with places, played the same every time.
-#include "device/recording.h"
+#include "device/link.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Laws of tips against closed numbers, their limits and their own slopes.
-#include "fit/contact_search.h"
+#include "fit/contact_model.h"
 
 #include <gtest/gtest.h>
 

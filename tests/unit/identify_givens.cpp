@@ -1,10 +1,11 @@
 // Texts of `--given`, and what a number that is known to a deviation adds to an interval.
-#include "identify/givens.h"
+#include "identify/unknowns.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "identify/identify.h"
 #include "refusal.h"
 #include "scenario/family.h"
 

@@ -1,5 +1,5 @@
 // Scripts of the figures of an identification.
-#include "identify/folder.h"
+#include "identify/tables.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "refusal.h"
 #include "scenario/family.h"
-#include "scenario/numeric_keys.h"
+#include "scenario/scenario.h"
 
 namespace palpate::identify {
 namespace {

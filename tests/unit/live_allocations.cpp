@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "counted_memory.h"
 #include "every.h"
-#include "live/log.h"
 #include "live/loop.h"
 #include "run/pace.h"
 #include "scenario/words.h"

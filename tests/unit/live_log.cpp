@@ -1,6 +1,6 @@
 // A live run's log: what it writes while it goes on is what the result would have; no disk stops
 // it, and what it cannot keep it counts.
-#include "live/log.h"
+#include "live/loop.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,6 +1,6 @@
 // Measured files as machines, spreadsheets and people leave them, and what is refused of them.
+#include "measured/columns.h"
 #include "measured/measured.h"
-#include "measured/unit.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cases.h"
-#include "contact/elliptic.h"
 #include "contact/hertz.h"
 #include "geometry/curvature.h"
 #include "test_surfaces.h"

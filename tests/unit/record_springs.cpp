@@ -7,7 +7,6 @@
 #include "geometry/cuboid.h"
 #include "material/tissue_table.h"
 #include "tissue/network.h"
-#include "tissue/stable_step.h"
 #include "tissue/stiffness.h"
 
 namespace palpate {

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "contact/elliptic.h"
 #include "contact/hertz.h"
 #include "geometry/cuboid.h"
 

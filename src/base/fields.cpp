@@ -1,17 +1,142 @@
-// The visitor that reads fields, and the messages for everything that it refuses.
-#include "base/field_reader.h"
+// The visitor that reads fields, with the messages for everything that it refuses, and the one that
+// makes a document of their values.
+#include "base/fields.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
-#include "base/field_writer.h"
 #include "base/text.h"
 
 namespace palpate {
+
+std::string range_text(const Range& range, const Unit* unit, const RangeWords& words) {
+  const auto bound = [&](double value) {
+    return unit != nullptr ? quantity_text(value, *unit) : number_text(value);
+  };
+  std::string text;
+  if (range.low == range.high) return words.equal + bound(range.low);
+  if (std::isfinite(range.low))
+    text += (range.low_allowed ? words.at_least : words.above) + bound(range.low);
+  if (std::isfinite(range.high)) {
+    if (!text.empty()) text += " and ";
+    text += (range.high_allowed ? words.at_most : words.below) + bound(range.high);
+  }
+  return text;
+}
+
+std::string no_key_text(const std::string& key, std::span<const std::string> known) {
+  return ticked(key) + " is not a key here; " +
+         did_you_mean(key, known, "known keys: " + joined(known, ", "));
+}
+
+std::string no_word_text(const std::string& key, const Node& node,
+                         std::span<const std::string> known) {
+  const std::string choices = joined(known, ", ");
+  if (node.kind != Node::Kind::text)
+    return ticked(key) + " wants one of " + choices + ", got " + node.kind_name() +
+           "; write it as `" + key + " = \"" + known[0] + "\"`";
+  const auto near = nearest(node.text, known);
+  return ticked(key) + " does not know " + ticked(node.text) +
+         (near ? "; did you mean " + ticked(*near) + "? It" : "; it") + " is one of " + choices;
+}
+
+namespace {
+
+class Writer final : public FieldVisitor {
+ public:
+  explicit Writer(Written written) : all_(written == Written::all) {}
+
+  [[nodiscard]] const Node& result() const { return table_; }
+
+  void real(const Key& key, std::optional<double>& value, const Real& kind) override {
+    if (value)
+      put(key, kind.unit != nullptr ? text_node(quantity_text(*value, *kind.unit))
+                                    : number_node(*value));
+    else if (kind.open != nullptr)
+      put(key, text_node(kind.open));
+  }
+  void whole(const Key& key, std::optional<int>& value, const Whole& kind) override {
+    put(key, value ? number_node(*value) : text_node(kind.open));
+  }
+  void either(const Key& key, Target& target, const Unit& first, const Unit& second,
+              const Range&) override {
+    put(key, text_node(quantity_text(target.value, target.second ? second : first)));
+  }
+  void text(const Key& key, std::string& value) override { put(key, text_node(value)); }
+  void flag(const Key& key, bool& value) override {
+    Node node;
+    node.kind = Node::Kind::boolean;
+    node.boolean = value;
+    put(key, node);
+  }
+  void quantities(const Key& key, std::span<double> si, const Unit& unit, const Range&) override {
+    std::vector<Node> items;
+    for (const double value : si) items.push_back(text_node(quantity_text(value, unit)));
+    put(key, list_node(std::move(items)));
+  }
+  void counts(const Key& key, std::span<int> values, const Range&) override {
+    std::vector<Node> items;
+    for (const int value : values) items.push_back(number_node(value));
+    put(key, list_node(std::move(items)));
+  }
+  void quantity_list(const Key& key, std::vector<double>& si, const Unit& unit,
+                     const Range& range) override {
+    if (!si.empty()) quantities(key, si, unit, range);
+  }
+  void numbers_by_name(const Key& key, std::map<std::string, double>& values,
+                       const Range&) override {
+    Node table;
+    for (const auto& [name, value] : values)
+      table.members.push_back({name, {}, number_node(value)});
+    if (!values.empty()) put(key, table);
+  }
+  void choice_of(const Key& key, int& index, std::span<const Word> words) override {
+    put(key, text_node(words[as_index(index)].word));
+  }
+  void table(const Key& key, const Fields& fields) override {
+    if (all_ || key.use.used) put(key, inside([&] { fields(*this); }));
+  }
+  void tables(const Key& key, int size, const std::function<void(int)>&,
+              const std::function<void(FieldVisitor&, int)>& fields) override {
+    std::vector<Node> items;
+    for (int i = 0; i < size; ++i) items.push_back(inside([&] { fields(*this, i); }));
+    if (size > 0) put(key, list_node(std::move(items)));
+  }
+  void kind(int chosen, std::span<const Word> words,
+            const std::function<Fields(int)>& choose) override {
+    put({"kind", ""}, text_node(words[as_index(chosen)].word));
+    choose(chosen)(*this);
+  }
+
+ private:
+  Node inside(const std::function<void()>& visit) {
+    Node outer = std::exchange(table_, {});
+    visit();
+    return std::exchange(table_, std::move(outer));
+  }
+
+  void put(const Key& key, Node value) {
+    if (all_ || key.use.used) table_.members.push_back({key.name, {}, std::move(value)});
+  }
+
+  bool all_;
+  Node table_;  // that is being filled
+};
+
+}  // namespace
+
+Node fields_as_node(const Fields& fields, Written written) {
+  Writer writer(written);
+  fields(writer);
+  return writer.result();
+}
+
+std::string fields_as_toml(const Fields& fields, Written written) {
+  return toml_document(fields_as_node(fields, written));
+}
+
 namespace {
 
 // Words of earlier versions, and those that took their place.
@@ -227,10 +352,7 @@ class Reader final : public FieldVisitor {
     const std::vector<std::string> known(here.known.begin(), here.known.end());
     for (const Member& member : here.node->members) {
       if (here.known.contains(member.key)) continue;
-      const auto near = nearest(member.key, known);
-      problem(member.place, ticked(member.key) + " is not a key here; " +
-                                (near ? "did you mean " + ticked(*near) + "?"
-                                      : "known keys: " + joined(known, ", ")));
+      problem(member.place, no_key_text(member.key, known));
     }
   }
 
@@ -348,26 +470,17 @@ class Reader final : public FieldVisitor {
                                std::span<const Word> words) {
     std::vector<std::string> known;
     for (const Word& word : words) known.emplace_back(word.word);
-    const std::string choices = joined(known, ", ");
-    choices_read_ = choices_read_ && node.kind == Node::Kind::text &&
-                    std::find(known.begin(), known.end(), node.text) != known.end();
-    if (node.kind != Node::Kind::text) {
-      problem(node.place, ticked(name) + " wants one of " + choices + ", got " + node.kind_name() +
-                              "; write it as `" + name + " = \"" + known[0] + "\"`");
-      return std::nullopt;
-    }
-    for (std::size_t i = 0; i < words.size(); ++i)
-      if (node.text == words[i].word) return static_cast<int>(i);
+    const auto at = std::find(known.begin(), known.end(), node.text);
+    if (node.kind == Node::Kind::text && at != known.end())
+      return static_cast<int>(at - known.begin());
+    choices_read_ = false;
     for (const auto& [old, now] : renamed)
       if (node.text == old && std::find(known.begin(), known.end(), now) != known.end()) {
         problem(node.place, ticked(name) + " calls " + ticked(old) + " " + ticked(now) +
                                 " now; write `" + name + " = \"" + now + "\"`");
         return std::nullopt;
       }
-    const auto near = nearest(node.text, known);
-    problem(node.place, ticked(name) + " does not know " + ticked(node.text) +
-                            (near ? "; did you mean " + ticked(*near) + "? It" : "; it") +
-                            " is one of " + choices);
+    problem(node.place, no_word_text(name, node, known));
     return std::nullopt;
   }
 
