@@ -442,8 +442,10 @@ OneModel one_model(const scenario::Family& family, SpecimenShapes& shapes, int w
   std::vector<std::pair<std::size_t, Choice>> made(tries);
   share_out(tries, workers, [&](std::size_t t) {
     const std::size_t i = tries == 1 ? 0 : t * (count - 1) / (tries - 1);
-    made[t] = {i, family.cases.empty() ? choose(scenario::make_case(family, i), shapes)
-                                       : choose(family.cases[i], shapes)};
+    made[t] = {i, scenario::at_its_key(family.document, [&] {
+                 return family.cases.empty() ? choose(scenario::make_case(family, i), shapes)
+                                             : choose(family.cases[i], shapes);
+               })};
   });
   Model dearest = Model::hertz;
   for (const auto& [i, choice] : made) {
