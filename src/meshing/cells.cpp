@@ -250,8 +250,7 @@ std::vector<std::array<Vec3, 3>> faces_of_group(const std::string& path, const s
   for (const auto& [number, name] : known) names.push_back("`" + name + "`, ");
   throw KeyError("tissue.base_side", path + ": there is no group of faces `" + group +
                                          "`; `tissue.base_side` wants " + joined(names, "") +
-                                         (names.empty() ? "" : "or ") +
-                                         "a direction such as `-z`");
+                                         (names.empty() ? "" : "or ") + "a direction such as `-z`");
 }
 
 bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells) {

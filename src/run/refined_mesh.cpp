@@ -207,9 +207,8 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes) {
-  return build_scene(one, family, shapes, scenario::at_its_key(family.document, [&] {
-                       return choose(one, shapes);
-                     }));
+  return build_scene(one, family, shapes,
+                     scenario::at_its_key(family.document, [&] { return choose(one, shapes); }));
 }
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,

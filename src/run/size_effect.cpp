@@ -85,7 +85,8 @@ std::string key_of(const scenario::Resolved& trial, const scene::SurfaceTouch& t
   return key;
 }
 
-// The force of the formula, N, with the curvature of a flat where none is known; 0 where it has none.
+// The force of the formula, N, with the curvature of a flat where none is known; 0 where it has
+// none.
 double formula(const scene::Scene& scene, const scene::SurfaceTouch& touch, double travel) {
   const auto law = contact::contact_law(scene.scenario.contact.law,
                                         {scene.finger.sphere_radius, scene.finger.sphere_modulus},
@@ -177,11 +178,12 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
   const double share = (ratio - *(above - 1)) / (*above - *(above - 1));
   const auto at = [&](double known) {
     const scenario::Resolved trial = trial_of(scenario, touch, known);
-    const auto& numbers = shapes.kept_numbers(key_of(trial, touch), [&]() -> scene::SpecimenShapes::Numbers {
-      const SizeEffect found = press(trial, folder, touch, shapes);
-      return {found.change, found.error, found.softer, found.moving,
-              static_cast<double>(found.nodes)};
-    });
+    const auto& numbers =
+        shapes.kept_numbers(key_of(trial, touch), [&]() -> scene::SpecimenShapes::Numbers {
+          const SizeEffect found = press(trial, folder, touch, shapes);
+          return {found.change, found.error, found.softer, found.moving,
+                  static_cast<double>(found.nodes)};
+        });
     // Effects of size grow with the radius of the contact.
     const double narrower =
         std::sqrt(wanted / std::get<scenario::Indent>(trial.steps.front()).to.value);

@@ -437,9 +437,8 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                tissue.material);
   visitor.table({"shape", "The specimen's shape."},
                 [&](FieldVisitor& inner) { inner.alternatives(tissue.shape); });
-  const bool brings_body =
-      std::holds_alternative<AsMeshed>(tissue.shape) ||
-      (use.solid && std::holds_alternative<MeshFile>(tissue.mesh));
+  const bool brings_body = std::holds_alternative<AsMeshed>(tissue.shape) ||
+                           (use.solid && std::holds_alternative<MeshFile>(tissue.mesh));
   visitor.table({"mesh", "How the shape is cut into tetrahedra.", brings_body ? Use{} : use.mesh},
                 [&](FieldVisitor& inner) { inner.alternatives(tissue.mesh); });
   visitor.quantity({"young_modulus", "Of the relaxed tissue. Default: the material's."},

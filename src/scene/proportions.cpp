@@ -97,8 +97,9 @@ void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch
   const std::string before = meets_before(scenario, touch);
   if (!before.empty() && scenario.finger.towards.empty())
     throw InputError(place_of(family.document, "finger.at"),
-                     before + ", which lies on an inner wall; give a place on the outside, or "
-                              "`finger.towards`");
+                     before +
+                         ", which lies on an inner wall; give a place on the outside, or "
+                         "`finger.towards`");
   const double distance = scenario.finger.beside;
   if (distance <= near(scenario, touch)) return;
   throw InputError(place_of(family.document, "finger.at"),

@@ -20,8 +20,8 @@ namespace palpate::scene {
 void refuse_through(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                     const Estimates& estimates, const scenario::Family& family);
 
-// Throws InputError for `finger.at` far from the surface, mostly a wrong unit, and on an inner wall,
-// along whose normal the finger meets another side of the body first.
+// Throws InputError for `finger.at` far from the surface, mostly a wrong unit, and on an inner
+// wall, along whose normal the finger meets another side of the body first.
 void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                    const scenario::Family& family);
 

@@ -167,8 +167,8 @@ int number_of(const scenario::TaggedRegion& region, std::size_t i,
   throw KeyError(
       "region." + std::to_string(i + 1) + ".name",
       "the mesh has no region with the name `" + region.name + "` of `[[region]]` " +
-      std::to_string(i + 1) + "; " +
-      (all.empty() ? "its file has no names, write `tag` with a number" : "it has " + all));
+          std::to_string(i + 1) + "; " +
+          (all.empty() ? "its file has no names, write `tag` with a number" : "it has " + all));
 }
 
 // Replaces the numbers of shapes and files by 0 for the tissue and 1... for the scenario's regions.
@@ -297,8 +297,7 @@ meshing::WholeSurface part_of(const meshing::MendedSurface& all, const Scenario&
 
 meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {
   auto read = meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
-  meshing::refuse_size(read.mesh.nodes, "the mesh of " + file.file, file.unit,
-                       "tissue.mesh.unit");
+  meshing::refuse_size(read.mesh.nodes, "the mesh of " + file.file, file.unit, "tissue.mesh.unit");
   return read;
 }
 

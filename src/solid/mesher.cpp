@@ -346,8 +346,8 @@ std::set<std::array<int, 2>> long_border(const geometry::TetMesh& mesh, const Pl
       if (beyond[i] == 0.0) ends.push_back(corner[i]);
       if (beyond[i] * beyond[j] >= 0.0) continue;
       ends.emplace_back(corner[i] + beyond[i] / (beyond[i] - beyond[j]) * (corner[j] - corner[i]));
-      const auto [a, b] = std::minmax(outer.nodes[as_index(triangle[i])],
-                                      outer.nodes[as_index(triangle[j])]);
+      const auto [a, b] =
+          std::minmax(outer.nodes[as_index(triangle[i])], outer.nodes[as_index(triangle[j])]);
       lengths[{a, b}] = (corner[j] - corner[i]).norm();
     }
     if (ends.size() == 2) border += (ends[1] - ends[0]).norm();

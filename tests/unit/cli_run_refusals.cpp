@@ -157,8 +157,9 @@ TEST_F(RunRefusals, a_folder_that_cannot_be_made) {
       << ended.err;
   const Ended nowhere = palpate(folder_.path(), {"run", "press.toml", "--out", "/proc/out"});
   EXPECT_EQ(nowhere.code, 2);
-  EXPECT_TRUE(says(nowhere, "/proc/out: cannot be a folder, because none can be made there; give "
-                            "another path"))
+  EXPECT_TRUE(says(nowhere,
+                   "/proc/out: cannot be a folder, because none can be made there; give "
+                   "another path"))
       << nowhere.err;
 }
 

@@ -287,8 +287,7 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
   EXPECT_EQ(read.straightened, sentence("q.msh", both));
   EXPECT_EQ(read_mesh(written("q.inp", abaqus_text), 1.0).straightened, sentence("q.inp", both));
   EXPECT_EQ(read_mesh(written("q.vtk", vtk_text), 1.0).straightened, sentence("q.vtk", ""));
-  const std::string of_medit =
-      sentence("q.mesh", ", region 0 the same, region 4 33 % more");
+  const std::string of_medit = sentence("q.mesh", ", region 0 the same, region 4 33 % more");
   for (const char* section : {"Tetrahedra", "TetrahedraP2"})
     EXPECT_EQ(read_mesh(written("q.mesh", medit_text(section)), 1.0).straightened, of_medit);
   const NamedMesh straight = read_mesh(written("straight.msh", gmsh({1})), 1.0);

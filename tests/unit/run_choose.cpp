@@ -280,8 +280,7 @@ TEST(Choose, APillarOfAFileSwingsWhereNoFormulaApplies) {
   const Choice choice = run::choose(family.cases.front());
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(choice.touch.known());
-  EXPECT_GT(choice.expected.swing,
-            rod_swings(0.010, 0.100, 1e4, 0.3, 1100.0, 0.006, 5e-4, 5e-3));
+  EXPECT_GT(choice.expected.swing, rod_swings(0.010, 0.100, 1e4, 0.3, 1100.0, 0.006, 5e-4, 5e-3));
 }
 
 TEST(Choose, ACoarseLatticeDoesNotCarryWaves) {

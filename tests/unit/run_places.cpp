@@ -277,8 +277,9 @@ TEST_F(PlacedBody, a_place_on_an_inner_wall_is_refused_or_told) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().front().place.line, 8);
     EXPECT_EQ(error.problems().front().message,
-              meets + ", which lies on an inner wall; give a place on the outside, or "
-                      "`finger.towards`");
+              meets +
+                  ", which lies on an inner wall; give a place on the outside, or "
+                  "`finger.towards`");
   }
   const auto notes = [](const scenario::Family& family) {
     const Choice choice = run::choose(family.cases.front());
