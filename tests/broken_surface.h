@@ -98,7 +98,7 @@ class BrokenSurfaces : public testing::Test {
     testing::internal::CaptureStderr();
     try {
       const geometry::Surface surface = read_surface(path(name), 1e-2);
-      refuse_size(surface.vertices, "surface `paw`", "cm");
+      refuse_size(surface.vertices, "surface `paw`", "cm", "tissue.shape.unit");
       check_closed(surface, "paw");
     } catch (const MeshError& error) {
       text = std::string("mesh: ") + error.what();

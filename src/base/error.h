@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace palpate {
@@ -45,6 +46,18 @@ class InputError : public std::runtime_error {
 class MeshError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// A mesh that does not agree with what a key of the scenario says of it (exit code 2). Where the
+// scenario is known it is thrown on as an InputError at that key.
+class KeyError : public MeshError {
+ public:
+  KeyError(std::string key, const std::string& message)
+      : MeshError(message), key_(std::move(key)) {}
+  [[nodiscard]] const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;  // a dotted path
 };
 
 // A device that cannot be reached, sends data that cannot be read, or is not safe (exit code 6).

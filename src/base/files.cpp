@@ -271,6 +271,9 @@ void make_folders(const std::string& path) {
         "cannot be a folder, because a part of this path is a file; give another path");
   if (error == std::errc::filename_too_long)
     throw InputError({path, 0, 0}, "is too long for the name of a folder; give a shorter one");
+  if (error == std::errc::no_such_file_or_directory)  // as in /proc
+    throw InputError({path, 0, 0},
+                     "cannot be a folder, because none can be made there; give another path");
   if (error) throw SystemError(path + " cannot be made: " + error.message());
 }
 

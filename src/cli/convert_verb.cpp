@@ -422,7 +422,8 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
         if (!sentence.empty()) talk.say("note: " + sentence);
       for (const auto& [name, number] : read.names)
         talk.say("note: region " + std::to_string(number) + " is `" + name + "`");
-      meshing::refuse_size(mesh.nodes, "the mesh of " + command.subject, command.unit);
+      meshing::refuse_size(mesh.nodes, "the mesh of " + command.subject, command.unit,
+                           "tissue.mesh.unit");
       meshing::check(mesh, command.subject, 0.0);
     }
     report.mesh(mesh, nullptr);

@@ -74,6 +74,9 @@ int program(const std::vector<std::string>& given) {
   } catch (const InputError& error) {
     Talk::error(error.what());
     return exit_input;
+  } catch (const KeyError& error) {
+    Talk::error(std::string("palpate: ") + error.what());
+    return exit_input;
   } catch (const MeshError& error) {
     Talk::error(std::string("palpate: ") + error.what());
     return exit_mesh;

@@ -248,9 +248,9 @@ std::vector<std::array<Vec3, 3>> faces_of_group(const std::string& path, const s
   if (!found.empty()) return found;
   std::vector<std::string> names;
   for (const auto& [number, name] : known) names.push_back("`" + name + "`, ");
-  throw InputError({path}, "there is no group of faces `" + group + "`; `tissue.base_side` wants " +
-                               joined(names, "") + (names.empty() ? "" : "or ") +
-                               "a direction such as `-z`");
+  throw KeyError("tissue.base_side", path + ": there is no group of faces `" + group +
+                                         "`; `tissue.base_side` wants " + joined(names, "") +
+                                         (names.empty() ? "" : "or ") + "a direction such as `-z`");
 }
 
 bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells) {

@@ -224,15 +224,17 @@ class MeditReader {
       } else if (section == "vertices") {
         vertices();
       } else if (section == "tetrahedra" || section == "tetrahedrap2") {
-        solids(4, section == "tetrahedrap2" ? 6 : 0);
+        solids(4, 10, section.ends_with("p2"));
       } else if (section == "hexahedra") {
-        solids(8, 0);
+        solids(8);
       } else if (section == "prisms" || section == "wedges" || section == "pentahedra") {
-        solids(6, 0);
+        solids(6);
       } else if (section == "pyramids") {
-        solids(5, 0);
-      } else if (section == "triangles" || section == "quadrilaterals") {
-        faces(section == "triangles" ? 3 : 4);
+        solids(5);
+      } else if (section == "triangles" || section == "trianglesp2") {
+        faces(3, 6, section.ends_with("p2"));
+      } else if (section == "quadrilaterals") {
+        faces(4);
       } else {
         skip();
       }
@@ -270,7 +272,7 @@ class MeditReader {
       cells_.nodes.emplace_back(x, y, z);
     }
   }
-  std::vector<int> corners(int count) {
+  std::vector<int> vertices_of_cell(int count) {
     std::vector<int> found;
     for (int c = 0; c < count; ++c) {
       const int node = whole("a vertex");
@@ -284,20 +286,30 @@ class MeditReader {
     }
     return found;
   }
-  void solids(int count, int further) {
-    cells_.curved = cells_.curved || further > 0;
-    for (int left = whole("the number of cells"); left > 0; --left) {
-      const std::vector<int> own = corners(count);
-      for (int k = 0; k < further; ++k) (void)whole("a vertex");
-      Cell cell{.corners = count, .region = 0};
-      std::copy(own.begin(), own.end(), cell.nodes.begin());
+  // The vertices of each cell of the section that begins. Gmsh 4.8 names quadratic cells as it does
+  // others: their first line tells, which ends in a reference.
+  int width(int corners, int quadratic, bool named) {
+    const bool whole_line = next() && word_ == 0;
+    return named || (whole_line && lines_.words().size() == as_index(quadratic) + 1) ? quadratic
+                                                                                     : corners;
+  }
+  void solids(int corners, int quadratic = 0, bool named = false) {
+    int left = whole("the number of cells");
+    for (const int count = width(corners, quadratic, named); left > 0; --left) {
+      const std::vector<int> own = vertices_of_cell(count);
+      Cell cell{.corners = corners, .region = 0};
+      std::copy_n(own.begin(), corners, cell.nodes.begin());
+      if (count == 10) cell.middles = {own[4], own[5], own[6], own[7], own[8], own[9]};
       cell.region = std::max(0, whole("the reference"));
       cells_.solids.push_back(cell);
     }
   }
-  void faces(int count) {
-    for (int left = whole("the number of faces"); left > 0; --left) {
-      cells_.faces.push_back(corners(count));
+  void faces(int corners, int quadratic = 0, bool named = false) {
+    int left = whole("the number of faces");
+    for (const int count = width(corners, quadratic, named); left > 0; --left) {
+      std::vector<int> own = vertices_of_cell(count);
+      own.resize(as_index(corners));
+      cells_.faces.push_back(std::move(own));
       cells_.face_groups.push_back({whole("the reference")});
     }
   }

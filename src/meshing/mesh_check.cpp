@@ -231,7 +231,8 @@ std::string other_units(double size, const std::string& unit) {
   return text;
 }
 
-void refuse_size(std::span<const Vec3> places, const std::string& name, const std::string& unit) {
+void refuse_size(std::span<const Vec3> places, const std::string& name, const std::string& unit,
+                 const std::string& key) {
   constexpr double smallest = 1e-6;  // m: smaller than any cell
   constexpr double largest = 10.0;   // m: larger than any tissue
   if (places.empty()) return;
@@ -240,9 +241,9 @@ void refuse_size(std::span<const Vec3> places, const std::string& name, const st
   const double size = geometry::box_of(places).size().maxCoeff();
   if (size >= smallest && size <= largest) return;
   const std::string units = other_units(size, unit);
-  throw MeshError(name + ": is " + rounded_text(size) + " m long in `" + unit +
-                  "`, but wants 1e-6 m to 10 m; check its unit" +
-                  (units.empty() ? "" : ": " + units));
+  throw KeyError(key, name + ": is " + rounded_text(size) + " m long in `" + unit +
+                          "`, but wants 1e-6 m to 10 m; check its unit" +
+                          (units.empty() ? "" : ": " + units));
 }
 
 }  // namespace palpate::meshing

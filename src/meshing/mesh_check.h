@@ -20,10 +20,11 @@ namespace palpate::meshing {
 // differs from the expected one by more than 1e-6 of it. Every tolerance scales with the mesh.
 void check(const geometry::TetMesh& mesh, const std::string& name, double expected_volume);
 
-// Throws MeshError if the longest side of the box of these places is below 1e-6 m or above 10 m,
+// Throws KeyError if the longest side of the box of these places is below 1e-6 m or above 10 m,
 // with the unit that is probably meant. `name` stands in messages as it is; `unit` is that in which
-// the coordinates were read.
-void refuse_size(std::span<const Vec3> places, const std::string& name, const std::string& unit);
+// the coordinates were read, and `key` the scenario's key for it.
+void refuse_size(std::span<const Vec3> places, const std::string& name, const std::string& unit,
+                 const std::string& key);
 
 // The units with which a body of `size` (m), read in `unit`, would have 5 mm to 2 m, of what is
 // usually pressed: "in `cm` it would be 0.23 m long, in `mm` 0.023 m"; empty if there is none.

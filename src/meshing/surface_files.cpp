@@ -48,17 +48,11 @@ Vec3 point(const TableLines& lines, std::size_t first) {
   return at;
 }
 
-// Appends a facet with vertices of its own. False if two corners are in one place.
-bool add_facet(const std::array<Vec3, 3>& corners, Polygons& polygons) {
+// Appends a facet with vertices of its own.
+void add_facet(const std::array<Vec3, 3>& corners, Polygons& polygons) {
   const auto next = static_cast<int>(polygons.vertices.size());
   polygons.vertices.insert(polygons.vertices.end(), corners.begin(), corners.end());
   polygons.corners.push_back({next, next + 1, next + 2});
-  return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
-}
-
-std::string two_in_one_place(const Polygons& polygons) {
-  return "facet " + std::to_string(polygons.corners.size() - 1) +
-         " (counting from 0) has two corners in one place; remove it or merge close vertices";
 }
 
 // Runs a pass over the lines. Mistakes in the content become MeshError.
@@ -186,7 +180,7 @@ Polygons ascii_stl(TableLines lines) {
       lines.fail("the line wants `" + std::string(open ? keywords[state] : "solid") + "`, got `" +
                  std::string(lines.words()[0]) + "`; export the file again");
     if (keyword == "vertex") corners[state - 2] = point(lines, 1);
-    if (state == 4 && !add_facet(corners, polygons)) lines.fail(two_in_one_place(polygons));
+    if (state == 4) add_facet(corners, polygons);
     state = (state + 1) % keywords.size();
   }
   if (open)
@@ -219,7 +213,7 @@ Polygons binary_stl(const std::string& path, const std::string& content) {
         fail(path, "facet " + std::to_string(facet) +
                        " has a coordinate that is not a finite number; export the file again");
     }
-    if (!add_facet(corners, polygons)) fail(path, two_in_one_place(polygons));
+    add_facet(corners, polygons);
   }
   return polygons;
 }
@@ -265,12 +259,7 @@ std::string wrong_corners(const std::string& face, const std::vector<int>& corne
       return face + " names vertex `" + std::to_string(corner) + "`, but the vertices run from " +
              std::to_string(first) + " to " + std::to_string(last) +
              "; the file may be cut short: export it again";
-  std::vector<int> sorted = corners;
-  std::sort(sorted.begin(), sorted.end());
-  const auto twin = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twin == sorted.end()) return "";
-  return face + " has vertex `" + std::to_string(*twin) +
-         "` twice; remove the face, or split it there";
+  return "";
 }
 
 Polygons read_obj(const std::string& path) { return over_lines(path, "OBJ", obj); }

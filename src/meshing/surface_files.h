@@ -16,9 +16,9 @@ struct Polygons {
   std::vector<std::vector<int>> corners;  // of each face, counting from 0
 };
 
-// Each function reads a file. Every face then has three corners or more, which are different
-// vertices of the list; the corners of an STL's facets are vertices of their own, in different
-// places. All coordinates are finite. They throw InputError if the file cannot be read; MeshError,
+// Each function reads a file. Every face then has three corners or more, which are vertices of the
+// list, some perhaps twice; the corners of an STL's facets are vertices of their own. All
+// coordinates are finite. They throw InputError if the file cannot be read; MeshError,
 // with file, line or record and a remedy, if it is truncated, a number is malformed or a count is
 // wrong.
 [[nodiscard]] Polygons read_obj(const std::string& path);

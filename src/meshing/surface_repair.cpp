@@ -442,7 +442,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
 
 MendedSurface mended_surface(geometry::Surface surface, const std::string& name,
                              const RepairOrder& order) {
-  refuse_size(surface.vertices, "surface `" + name + "`", order.unit);
+  refuse_size(surface.vertices, "surface `" + name + "`", order.unit, "tissue.shape.unit");
   std::string fault;
   try {
     check_closed(surface, name);

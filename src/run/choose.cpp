@@ -227,13 +227,24 @@ class Chooser {
     model_ = common->model;
   }
 
+  // Whether a body from a file may yield as a whole: not one that is held below the finger, without
+  // a gap, by a large part of its surface.
+  [[nodiscard]] bool may_swing() {
+    constexpr double large = 0.15;
+    if (!std::holds_alternative<scenario::SurfaceFile>(asked_.tissue.shape)) return false;
+    const scene::SurfaceTouch& touch = choice_.touch;
+    const auto& body = *shapes_.surface(asked_, case_.folder).must();
+    return !std::isfinite(touch.to_base) || touch.tissue_to_base < touch.to_base ||
+           scene::base_area(asked_, body.surface(), touch.position, 0.0).of_surface < large;
+  }
+
   // Presses a coarse mesh of the body, where something of it is asked for.
   void measure() {
     const bool none =
         std::holds_alternative<scenario::HalfSpace>(asked_.tissue.shape) || choice_.touch.nowhere;
     const bool formula = !beyond(Model::hertz, asked_, choice_.touch) ||
                          !beyond(Model::layer, asked_, choice_.touch);
-    if (none || (!formula && scene::refines(asked_))) return;
+    if (none || (!formula && scene::refines(asked_) && !may_swing())) return;
     if (scene::step_through(asked_, choice_.touch, choice_.expected) > 0)
       return;  // will be refused
     Estimates& e = choice_.expected;
@@ -249,6 +260,11 @@ class Chooser {
     try {
       const SizeEffect found = size_effect(asked_, case_.folder, choice_.touch, shapes_);
       if (found.nodes == 0) return;
+      if (!formula && scene::refines(asked_)) {
+        e.swing = swing(found, e, asked_.tissue);
+        e.inertia += e.swing;
+        return;
+      }
       coarse_nodes_ = found.nodes;
       // What an elastic finger takes of the depth knows nothing of the body.
       const double change = e.tissue_share * found.change;
@@ -442,8 +458,10 @@ OneModel one_model(const scenario::Family& family, SpecimenShapes& shapes, int w
   std::vector<std::pair<std::size_t, Choice>> made(tries);
   share_out(tries, workers, [&](std::size_t t) {
     const std::size_t i = tries == 1 ? 0 : t * (count - 1) / (tries - 1);
-    made[t] = {i, family.cases.empty() ? choose(scenario::make_case(family, i), shapes)
-                                       : choose(family.cases[i], shapes)};
+    made[t] = {i, scenario::at_its_key(family.document, [&] {
+                 return family.cases.empty() ? choose(scenario::make_case(family, i), shapes)
+                                             : choose(family.cases[i], shapes);
+               })};
   });
   Model dearest = Model::hertz;
   for (const auto& [i, choice] : made) {

@@ -207,7 +207,8 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
                          scene::SpecimenShapes& shapes) {
-  return build_scene(one, family, shapes, choose(one, shapes));
+  return build_scene(one, family, shapes,
+                     scenario::at_its_key(family.document, [&] { return choose(one, shapes); }));
 }
 
 scene::Scene build_scene(const scenario::Case& one, const scenario::Family& family,
@@ -217,12 +218,14 @@ scene::Scene build_scene(const scenario::Case& one, const scenario::Family& fami
     scene::refuse_through(choice.chosen, choice.touch, choice.expected, family);
   }
   try {
-    if (scene::refines(choice.chosen)) {
-      scene::refuse_misplaced(choice.chosen, family, shapes);
-      (void)shapes.shape(choice.chosen,
-                         [&] { return Refining(one, family, choice.chosen, shapes).refined(); });
-    }
-    return scene::build(one, family, shapes, choice);
+    return scenario::at_its_key(family.document, [&] {
+      if (scene::refines(choice.chosen)) {
+        scene::refuse_misplaced(choice.chosen, family, shapes);
+        (void)shapes.shape(choice.chosen,
+                           [&] { return Refining(one, family, choice.chosen, shapes).refined(); });
+      }
+      return scene::build(one, family, shapes, choice);
+    });
   } catch (const MeshError& error) {
     const auto* file = std::get_if<scenario::SurfaceFile>(&choice.chosen.tissue.shape);
     const std::string part =

@@ -85,9 +85,9 @@ std::string key_of(const scenario::Resolved& trial, const scene::SurfaceTouch& t
   return key;
 }
 
-// The force of the formula, N; 0 where there is none.
+// The force of the formula, N, with the curvature of a flat where none is known; 0 where it has
+// none.
 double formula(const scene::Scene& scene, const scene::SurfaceTouch& touch, double travel) {
-  if (!touch.known()) return 0.0;
   const auto law = contact::contact_law(scene.scenario.contact.law,
                                         {scene.finger.sphere_radius, scene.finger.sphere_modulus},
                                         touch.curvature, scene.layer ? &*scene.layer : nullptr);
@@ -137,11 +137,13 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
       const mechanics::SphereContact* contact = pressed.deepest();
       if (contact == nullptr) continue;
       const double simple = formula(scene, touch, travel);
-      const double change = simple > 0.0 ? pressed.normal_force() / simple - 1.0 : 0.0;
+      const double softer = simple > 0.0 ? pressed.normal_force() / simple - 1.0 : 0.0;
+      const double change = touch.known() ? softer : 0.0;
       if (found.nodes == 0 || std::abs(change) > std::abs(found.change)) found.change = change;
+      if (found.nodes == 0 || std::abs(softer) > std::abs(found.softer)) found.softer = softer;
       found.error = std::max(found.error, mechanics::mesh_error(*contact));
       found.moving = std::max(
-          found.moving, moving_volume(mesh, pressed, (1.0 - depth_share(change)) * travel, scene));
+          found.moving, moving_volume(mesh, pressed, (1.0 - depth_share(softer)) * travel, scene));
       found.nodes = scene.specimen->network.nodes();
       break;
     }
@@ -176,15 +178,17 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
   const double share = (ratio - *(above - 1)) / (*above - *(above - 1));
   const auto at = [&](double known) {
     const scenario::Resolved trial = trial_of(scenario, touch, known);
-    const auto& numbers = shapes.kept_numbers(key_of(trial, touch), [&]() -> std::array<double, 4> {
-      const SizeEffect found = press(trial, folder, touch, shapes);
-      return {found.change, found.error, found.moving, static_cast<double>(found.nodes)};
-    });
+    const auto& numbers =
+        shapes.kept_numbers(key_of(trial, touch), [&]() -> scene::SpecimenShapes::Numbers {
+          const SizeEffect found = press(trial, folder, touch, shapes);
+          return {found.change, found.error, found.softer, found.moving,
+                  static_cast<double>(found.nodes)};
+        });
     // Effects of size grow with the radius of the contact.
     const double narrower =
         std::sqrt(wanted / std::get<scenario::Indent>(trial.steps.front()).to.value);
-    return SizeEffect{narrower * numbers[0], narrower * numbers[1], numbers[2],
-                      static_cast<int>(numbers[3])};
+    return SizeEffect{narrower * numbers[0], narrower * numbers[1], narrower * numbers[2],
+                      numbers[3], static_cast<int>(numbers[4])};
   };
   const SizeEffect low = share < 1.0 ? at(*(above - 1)) : SizeEffect{};
   const SizeEffect high = share > 0.0 ? at(*above) : low;
@@ -192,12 +196,13 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
   if (low.nodes == 0 || high.nodes == 0) return {};
   return {(1.0 - share) * low.change + share * high.change,
           (1.0 - share) * low.error + share * high.error,
+          (1.0 - share) * low.softer + share * high.softer,
           (1.0 - share) * low.moving + share * high.moving, high.nodes};
 }
 
 double swing(const SizeEffect& size, const scene::Estimates& estimates,
              const scenario::Resolved::Tissue& tissue) {
-  const double change = estimates.tissue_share * size.change;
+  const double change = estimates.tissue_share * size.softer;
   if (!(change < 0.0 && size.moving > 0.0 && estimates.rate > 0.0)) return 0.0;
   const double compliance =
       contact::Elastic{tissue.young_modulus, tissue.poisson_ratio}.compliance();

@@ -23,7 +23,8 @@ namespace palpate::run {
 struct SizeEffect {
   double change = 0.0;  // of the formula's force, relative
   double error = 0.0;   // the mesh's own, a fraction of its force
-  double moving = 0.0;  // m^3, what moves as far as the body is softer than the formula  [swing]
+  double softer = 0.0;  // the change, or that of Hertz's force where no formula applies
+  double moving = 0.0;  // m^3, what moves as far as the body is softer by that            [swing]
   int nodes = 0;        // 0 if there is no mesh, or no solution on it
 };
 

@@ -161,7 +161,8 @@ class Checker {
     if (half_space && !scenario_.regions.empty())
       problem("region", "a `half_space` has no regions; use another `tissue.shape`");
     if (half_space) curved_half_space(std::get<HalfSpace>(tissue.shape));
-    if (meshed && ready && !half_space && !box && !as_meshed)
+    const bool takes_file = meshed || scenario_.solver.model == Model::solid;
+    if (takes_file && ready && !half_space && !box && !as_meshed)
       problem("tissue.shape",
               "a ready mesh brings its own shape; remove `shape`, or mesh it with `tissue.mesh = { "
               "kind = \"tetgen\", nodes = 728 }`");

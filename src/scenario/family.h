@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/document.h"
+#include "base/error.h"
 #include "material/tissue_table.h"
 #include "scenario/design.h"
 #include "scenario/scenario.h"
@@ -147,6 +148,16 @@ void complete(Scenario& scenario, const Node& document);
 // Checks that involve several keys: the order of steps, incompatible methods, depths beyond the
 // specimen. Adds to `problems`.
 void check(const Case& one, const Node& document, std::vector<Problem>& problems);
+
+// What `act` returns. A KeyError that it throws becomes an InputError at the place of its key.
+template <class Act>
+auto at_its_key(const Node& document, const Act& act) {
+  try {
+    return act();
+  } catch (const KeyError& error) {
+    throw InputError(place_of(document, error.key()), error.what());
+  }
+}
 
 // The path itself if it is `-`, has a folder or an ending, or is a file that exists. A bare name
 // such as `quickstart` is an installed example where share/palpate/scenarios beside the program's

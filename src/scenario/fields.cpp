@@ -18,6 +18,7 @@ struct Conditions {
   Use based;         // of specimens with a base: a mesh or a layer
   Use held;          // where the base of a pressed body is: of models that know its sides
   Use formula;       // keys of models without a mesh, which are ignored with one
+  bool solid;        // the model is `solid`, which takes a body from a mesh file
 
   explicit Conditions(const Scenario& scenario);
 };
@@ -36,6 +37,7 @@ Conditions::Conditions(const Scenario& scenario) {
                          "with " + models_that(std::mem_fn(&ModelTraits::independent)),
                          Use::Otherwise::note}
                    : mesh;
+  solid = model == Model::solid;
   based = model && traits(*model).thickness ? Use{} : mesh;
   formula = {!model || traits(*model).formula(),
              "with " + models_that(std::mem_fn(&ModelTraits::formula)), Use::Otherwise::note};
@@ -435,7 +437,8 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                tissue.material);
   visitor.table({"shape", "The specimen's shape."},
                 [&](FieldVisitor& inner) { inner.alternatives(tissue.shape); });
-  const bool brings_body = std::holds_alternative<AsMeshed>(tissue.shape);
+  const bool brings_body = std::holds_alternative<AsMeshed>(tissue.shape) ||
+                           (use.solid && std::holds_alternative<MeshFile>(tissue.mesh));
   visitor.table({"mesh", "How the shape is cut into tetrahedra.", brings_body ? Use{} : use.mesh},
                 [&](FieldVisitor& inner) { inner.alternatives(tissue.mesh); });
   visitor.quantity({"young_modulus", "Of the relaxed tissue. Default: the material's."},

@@ -30,6 +30,7 @@ struct Resolved : PlainScenario {
     double density = 0.0;                     // kg/m^3
     std::optional<contact::Elastic> elastic;  // none if rigid, and in a uniform test
     double beside = 0.0;                      // m, of `at` from the surface
+    std::optional<double> height = {};        // m, of the surface at `at`, in the scene
     bool moved = false;                       // to the top of a body that has nothing at its middle
   };
   struct Contact : PlainContact {

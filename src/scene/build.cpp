@@ -336,13 +336,17 @@ void refuse_sliding(const Scene& scene, const scenario::Family& family) {
 }
 
 // Refuses a model that cannot compute the scene, and names the most complete model that can.
-void refuse_beyond(const Scene& scene, const scenario::Family& family) {
+void refuse_beyond(const Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
   const scenario::Resolved& scenario = scene.scenario;
   if (scenario.uniform()) return;
   const SurfaceTouch& touch = scene.choice.touch;
   const auto reason = beyond(scenario.solver.model, scenario, touch);
   if (!reason) return;
-  if (touch.nowhere) throw MeshError(*reason);
+  if (touch.nowhere) {
+    if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))
+      (void)shapes.surface(scenario, family.folder).must();
+    throw MeshError(*reason);
+  }
   if (scenario::traits(scenario.solver.model).solid && scenario.finger.spheres > 1 &&
       scenario.finger.calibration == finger::Calibration::force)
     throw InputError(place_of(family.document, "finger.spheres"),
@@ -369,7 +373,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   const scenario::Resolved& scenario = scene.scenario;
   if (!scenario.uniform()) scene.finger = make_finger(scenario);
   scene.relaxation = contact_relaxation(scenario, scene.finger);
-  refuse_beyond(scene, family);
+  refuse_beyond(scene, family, shapes);
   refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
   if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))

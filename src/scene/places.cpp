@@ -374,6 +374,7 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
     const Vec3 turned = turn * place;
     finger.x = turned.x();
     finger.y = turned.y();
+    finger.height = turned.z();
   } else if (!finger.x && !finger.y) {
     if (std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape)) {
       scenario::Resolved plain = scenario;

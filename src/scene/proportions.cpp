@@ -41,6 +41,23 @@ std::string size_text(const SurfaceTouch& touch) {
 
 std::string mm_text(double length) { return rounded_text(unit::mm.from_si(length), 3) + " mm"; }
 
+// How far from the surface `finger.at` may be, and from the place that is pressed.
+double near(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  constexpr double share = 0.1;  // of the longest side of the body's box
+  return std::max(scenario.finger.radius, share * (touch.high - touch.low).maxCoeff());
+}
+
+// "the finger comes from outside and meets the body at ... mm, 40 mm before the place of `at`", if
+// it does; otherwise empty.
+std::string meets_before(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  if (!scenario.finger.height || touch.nowhere || !touch.size.allFinite()) return "";
+  const double before = touch.position.z() - *scenario.finger.height;
+  if (before <= near(scenario, touch)) return "";
+  return "the finger comes from outside the body and meets it at " +
+         place_text(scenario, touch.position) + ", " + mm_text(before) +
+         " before the place of `at`";
+}
+
 }  // namespace
 
 std::size_t step_through(const scenario::Resolved& scenario, const SurfaceTouch& touch,
@@ -76,11 +93,15 @@ void refuse_through(const scenario::Resolved& scenario, const SurfaceTouch& touc
 
 void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                    const scenario::Family& family) {
-  constexpr double near = 0.1;  // of the longest side of the body's box
+  if (!touch.size.allFinite()) return;
+  const std::string before = meets_before(scenario, touch);
+  if (!before.empty() && scenario.finger.towards.empty())
+    throw InputError(place_of(family.document, "finger.at"),
+                     before +
+                         ", which lies on an inner wall; give a place on the outside, or "
+                         "`finger.towards`");
   const double distance = scenario.finger.beside;
-  if (!touch.size.allFinite() ||
-      distance <= std::max(scenario.finger.radius, near * (touch.high - touch.low).maxCoeff()))
-    return;
+  if (distance <= near(scenario, touch)) return;
   throw InputError(place_of(family.document, "finger.at"),
                    "`at` is " + mm_text(distance) + " from the surface of the body, which has " +
                        box_text({touch.low, touch.high}) + ", " + coordinates_text(scenario) +
@@ -113,6 +134,8 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
     found.push_back("the finger of radius " + mm_text(radius) +
                     " is wider than the body, which is " + size_text(touch) +
                     ": it presses like a plate; check `finger.radius`" + units);
+  if (const std::string before = meets_before(scenario, touch); !before.empty())
+    found.push_back(before + "; change `finger.at` or `finger.towards` if that is not meant");
   constexpr double longest = 2.0;  // m
   if (!units.empty() && touch.size.maxCoeff() > longest)
     found.push_back("the body is " + size_text(touch) + "; check its size" + units);

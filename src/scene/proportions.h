@@ -20,12 +20,14 @@ namespace palpate::scene {
 void refuse_through(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                     const Estimates& estimates, const scenario::Family& family);
 
-// Throws InputError for `finger.at` far from the surface: mostly a wrong unit.
+// Throws InputError for `finger.at` far from the surface, mostly a wrong unit, and on an inner
+// wall, along whose normal the finger meets another side of the body first.
 void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch,
                    const scenario::Family& family);
 
 // Sentences on what is computed, but probably not meant: a press through more than half of the
-// tissue, a finger wider than the body, a body longer than any that is pressed.
+// tissue, a finger wider than the body, a body longer than any that is pressed, another side of the
+// body than that of `finger.at`.
 [[nodiscard]] std::vector<std::string> disproportions(const scenario::Resolved& scenario,
                                                       const SurfaceTouch& touch,
                                                       const Estimates& estimates);

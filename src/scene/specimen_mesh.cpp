@@ -164,10 +164,11 @@ int number_of(const scenario::TaggedRegion& region, std::size_t i,
   if (known != names.end()) return known->second;
   std::string all;
   for (const auto& [name, number] : names) all += (all.empty() ? "`" : ", `") + name + "`";
-  throw MeshError(
+  throw KeyError(
+      "region." + std::to_string(i + 1) + ".name",
       "the mesh has no region with the name `" + region.name + "` of `[[region]]` " +
-      std::to_string(i + 1) + "; " +
-      (all.empty() ? "its file has no names, write `tag` with a number" : "it has " + all));
+          std::to_string(i + 1) + "; " +
+          (all.empty() ? "its file has no names, write `tag` with a number" : "it has " + all));
 }
 
 // Replaces the numbers of shapes and files by 0 for the tissue and 1... for the scenario's regions.
@@ -190,11 +191,15 @@ void number_regions(SpecimenMesh& made, const Scenario& scenario) {
   };
   if (mesh.regions.empty()) mesh.regions.assign(mesh.tetrahedra.size(), 0);
   for (int& region : mesh.regions) region = substance(region);
-  for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i] == 0)
-      throw MeshError("the specimen's mesh has no tetrahedron of `[[region]]` " +
-                      std::to_string(i + 1) +
-                      "; check its `tag` against the mesh, or mesh an inclusion finer");
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] != 0) continue;
+    const std::string number = std::to_string(i + 1);
+    const std::string what = "the specimen's mesh has no tetrahedron of `[[region]]` " + number;
+    if (std::holds_alternative<scenario::TaggedRegion>(scenario.regions[i].part))
+      throw KeyError("region." + number + ".tag",
+                     what + "; check its `tag` or `name` against the mesh");
+    throw MeshError(what + "; mesh the inclusion finer");
+  }
   if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
     mesh.regions.clear();
 }
@@ -292,7 +297,7 @@ meshing::WholeSurface part_of(const meshing::MendedSurface& all, const Scenario&
 
 meshing::NamedMesh mesh_of(const scenario::MeshFile& file, const std::string& folder) {
   auto read = meshing::read_mesh(path_in(folder, file.file), metres_per(file.unit));
-  meshing::refuse_size(read.mesh.nodes, "the mesh of " + file.file, file.unit);
+  meshing::refuse_size(read.mesh.nodes, "the mesh of " + file.file, file.unit, "tissue.mesh.unit");
   return read;
 }
 

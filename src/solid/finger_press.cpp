@@ -59,10 +59,11 @@ Sizes sizes_for(const BodyOrder& order, const Box& extent) {
   return sizes;
 }
 
-// The plane to which the base reaches.
+// The plane to which the base reaches; of a given mesh with the side that is held below it.
 Plane base_plane(const BodyOrder& order) {
   for (const int axis : {0, 1, 2})
-    if (std::abs(order.base_up[axis]) == 1.0) return {axis, order.base_up[axis] * order.base_level};
+    if (order.mesh == nullptr && std::abs(order.base_up[axis]) == 1.0)
+      return {axis, order.base_up[axis] * order.base_level};
   return {.at = order.base_level, .inclined = order.base_up};
 }
 
@@ -138,8 +139,7 @@ void support(const BodyOrder& order, std::span<const Plane> mirrors, const Box& 
     const auto corner = [&](std::size_t i) -> const Vec3& {
       return body.mesh.nodes[as_index(face.nodes[i])];
     };
-    const auto height = [&](std::size_t i) { return corner(i).dot(order.base_up); };
-    if (height(0) <= level && height(1) <= level && height(2) <= level)
+    if ((corner(0) + corner(1) + corner(2)).dot(order.base_up) / 3.0 <= level)
       base.insert(face.nodes.begin(), face.nodes.end());
     else if ((corner(1) - corner(0)).cross(corner(2) - corner(0)).z() > 0.0)
       body.met.push_back(face);

@@ -275,10 +275,14 @@ TEST_F(RunMeshes, explain_states_the_meshs_own_error) {
 
 TEST_F(RunMeshes, regions_that_are_not_there) {
   write_file(folder_ / "box.msh", Layered().version2());
-  expect_refused(of_mesh("[[region]]\ntag = 3\n[[region]]\ntag = 9\n"), 5,
+  expect_refused(of_mesh("[[region]]\ntag = 3\n[[region]]\ntag = 9\n"), 2,
                  "the specimen's mesh has no tetrahedron of `[[region]]` 2; check its `tag`");
-  expect_refused("[[region]]\ntag = 1\n" + steps, 5,
-                 "the specimen's mesh has no tetrahedron of `[[region]]` 1; check its `tag`");
+  expect_refused(of_mesh("[[region]]\nname = \"bone\"\n"), 2,
+                 "the mesh has no region with the name `bone` of `[[region]]` 1; its file has no "
+                 "names, write `tag` with a number");
+  expect_refused("[[region]]\ntag = 1\n" + steps, 2,
+                 "press.toml:2:7: the specimen's mesh has no tetrahedron of `[[region]]` 1; check "
+                 "its `tag`");
   const std::string lump =
       "[tissue]\nmesh = { kind = \"tetgen\", nodes = 300 }\n[[region]]\nkind = \"sphere\"\nradius "
       "= "

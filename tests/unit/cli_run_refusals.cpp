@@ -155,6 +155,12 @@ TEST_F(RunRefusals, a_folder_that_cannot_be_made) {
   EXPECT_EQ(ended.code, 2);
   EXPECT_TRUE(says(ended, "cannot be a folder, because a part of this path is a file"))
       << ended.err;
+  const Ended nowhere = palpate(folder_.path(), {"run", "press.toml", "--out", "/proc/out"});
+  EXPECT_EQ(nowhere.code, 2);
+  EXPECT_TRUE(says(nowhere,
+                   "/proc/out: cannot be a folder, because none can be made there; give "
+                   "another path"))
+      << nowhere.err;
 }
 
 TEST_F(RunRefusals, a_scenario_whose_name_is_too_long) {

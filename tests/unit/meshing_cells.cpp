@@ -269,6 +269,12 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
                  "\n*Element, type=C3D10\n2, " + text_of(ten, 11, ", ") + "\n";
   vtk_text +=
       "CELLS 2 22\n10 " + text_of(ten, 0) + "\n10 " + text_of(ten, 10) + "\nCELL_TYPES 2\n24\n24\n";
+  // Gmsh 4.8 has `Tetrahedra` of ten nodes in its `.mesh`, later ones `TetrahedraP2`.
+  const auto medit_text = [&](const std::string& section) {
+    std::string text = "MeshVersionFormatted 2\nDimension 3\nVertices\n20\n";
+    for (const std::string& place : places) text += place + " 1\n";
+    return text + section + "\n2\n" + text_of(ten, 1) + " 4\n" + text_of(ten, 11) + " 0\nEnd\n";
+  };
   // 1/3 over 1/4, and 1/2 over 1/4 + 1/6.
   const auto sentence = [](const std::string& file, const std::string& regions) {
     return "the edges of the cells of " + file +
@@ -281,6 +287,9 @@ TEST_F(CellFiles, edges_that_become_straight_are_told_with_what_the_volumes_chan
   EXPECT_EQ(read.straightened, sentence("q.msh", both));
   EXPECT_EQ(read_mesh(written("q.inp", abaqus_text), 1.0).straightened, sentence("q.inp", both));
   EXPECT_EQ(read_mesh(written("q.vtk", vtk_text), 1.0).straightened, sentence("q.vtk", ""));
+  const std::string of_medit = sentence("q.mesh", ", region 0 the same, region 4 33 % more");
+  for (const char* section : {"Tetrahedra", "TetrahedraP2"})
+    EXPECT_EQ(read_mesh(written("q.mesh", medit_text(section)), 1.0).straightened, of_medit);
   const NamedMesh straight = read_mesh(written("straight.msh", gmsh({1})), 1.0);
   EXPECT_EQ(straight.straightened, "");
   EXPECT_TRUE(straight.middles.empty());

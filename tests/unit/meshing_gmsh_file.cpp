@@ -105,7 +105,8 @@ TEST_F(GmshFile, groups_of_faces_have_numbers_and_names) {
   const auto complaint = [&](const char* group) -> std::string {
     try {
       (void)faces_of_group(path_, group, 1.0);
-    } catch (const InputError& error) {
+    } catch (const KeyError& error) {
+      EXPECT_EQ(error.key(), "tissue.base_side");
       return std::string(error.what()).substr(path_.size());
     }
     return "no error";

@@ -98,7 +98,7 @@ TEST(SurfaceCheck, refuses_what_is_not_finite) {
 TEST(SurfaceCheck, asks_about_the_unit) {
   const auto size = [](double factor, const std::string& unit) {
     return test::refusal<MeshError>(
-        [&] { refuse_size(corner(factor).vertices, "surface `paw`", unit); });
+        [&] { refuse_size(corner(factor).vertices, "surface `paw`", unit, "tissue.shape.unit"); });
   };
   EXPECT_EQ(size(60.0, "m"),
             "surface `paw`: is 60 m long in `m`, but wants 1e-6 m to 10 m; check its unit: in `cm` "

@@ -64,6 +64,11 @@ TEST(SurfaceRepair, doubled_and_turned_triangles_are_mended) {
   doubled.triangles.push_back(doubled.triangles[7]);
   EXPECT_EQ(told(doubled, rounding),
             "the surface of paw was mended: 1 doubled or flat triangle removed");
+  Surface pinched = body();
+  pinched.triangles.push_back(
+      {pinched.triangles[7][0], pinched.triangles[7][1], pinched.triangles[7][1]});
+  EXPECT_EQ(told(pinched, rounding),
+            "the surface of paw was mended: 1 doubled or flat triangle removed");
   Surface turned = body();
   for (std::size_t t = 0; t < turned.triangles.size(); t += 5)
     std::swap(turned.triangles[t][0], turned.triangles[t][1]);

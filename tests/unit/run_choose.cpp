@@ -2,13 +2,17 @@
 #include "run/choose.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "auto_scenes.h"
 #include "base/index.h"
+#include "geometry/shapes.h"
+#include "meshing/surface_files.h"
 #include "run/answer.h"
 #include "run/refined_mesh.h"
 #include "scenario/family.h"
@@ -258,6 +262,25 @@ TEST(Choose, APillarSwings) {
   EXPECT_GT(choice.expected.inertia, truth);
   EXPECT_LT(choice.expected.inertia, 3.0 * truth);
   EXPECT_EQ(choice.chosen.solver.model, Model::coupled_springs);  // not `solid`, which rests
+}
+
+// Hertz's force does not apply on the rim; there the pillar bends besides.
+TEST(Choose, APillarOfAFileSwingsWhereNoFormulaApplies) {
+  const std::string folder = testing::TempDir() + "palpate_pillar" + std::to_string(::getpid());
+  std::filesystem::create_directories(folder);
+  meshing::write_surface(
+      folder + "/pillar.off",
+      geometry::sampled(geometry::Disc{0.010, 0.100}, {0.005, 0.005}).parts.front().surface, 1.0);
+  const scenario::Family family = scenario::parse(
+      "[tissue]\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.3\ndensity = \"1100 kg/m^3\"\n"
+      "viscosity = \"none\"\nshape = { file = \"pillar.off\", unit = \"m\" }\n[finger]\n"
+      "material = \"rigid\"\nradius = \"6 mm\"\nx = \"19.9 mm\"\ny = \"10 mm\"\n[[step]]\n"
+      "kind = \"indent\"\nto = \"0.5 mm\"\nrate = \"5 mm/s\"\n",
+      folder + "/press.toml", {});
+  const Choice choice = run::choose(family.cases.front());
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(choice.touch.known());
+  EXPECT_GT(choice.expected.swing, rod_swings(0.010, 0.100, 1e4, 0.3, 1100.0, 0.006, 5e-4, 5e-3));
 }
 
 TEST(Choose, ACoarseLatticeDoesNotCarryWaves) {

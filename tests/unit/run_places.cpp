@@ -220,7 +220,8 @@ TEST_F(PlacedBody, what_was_made_of_a_mesh_file_is_told) {
 }
 
 // Twice 30 mm wide with a hole of 20 mm, 10 mm high.
-TEST_F(PlacedBody, a_finger_without_a_place_presses_a_ring_on_its_top) {
+// A frame of 60 mm in the plane and 10 mm height with a hole of 20 mm.
+geometry::Surface square_ring() {
   geometry::Surface ring;
   for (const double half : {30.0, 10.0})
     for (const double z : {0.0, 10.0})
@@ -237,7 +238,11 @@ TEST_F(PlacedBody, a_finger_without_a_place_presses_a_ring_on_its_top) {
     side(i + 4, j + 4, j + 12, i + 12);  // top
     side(j, i, i + 8, j + 8);            // bottom
   }
-  meshing::write_surface(folder_ + "/box.off", ring, 1.0);
+  return ring;
+}
+
+TEST_F(PlacedBody, a_finger_without_a_place_presses_a_ring_on_its_top) {
+  meshing::write_surface(folder_ + "/box.off", square_ring(), 1.0);
   const scenario::Resolved small = placed("", "[finger]\nradius = \"5 mm\"\n");
   EXPECT_TRUE(small.finger.moved);
   const double x = std::abs(small.finger.x.value()), y = std::abs(small.finger.y.value());
@@ -250,6 +255,41 @@ TEST_F(PlacedBody, a_finger_without_a_place_presses_a_ring_on_its_top) {
   // A large one would rest on the edges of the hole, and one with a place keeps it.
   EXPECT_TRUE(placed("", "[finger]\nradius = \"25 mm\"\n").finger.moved);
   EXPECT_FALSE(placed("", "[finger]\nx = \"20 mm\"\n").finger.moved);
+}
+
+// The finger comes from outside: along the normal of a wall of the hole it meets the other side.
+TEST_F(PlacedBody, a_place_on_an_inner_wall_is_refused_or_told) {
+  meshing::write_surface(folder_ + "/box.off", square_ring(), 1.0);
+  const auto read = [&](const std::string& towards, const std::string& x = "10 mm") {
+    return scenario::parse(
+        "[tissue]\nshape = { file = \"box.off\", unit = \"mm\" }\n[[step]]\nkind = \"indent\"\n"
+        "to = \"1 mm\"\n[finger]\nradius = \"4 mm\"\nat = [\"" +
+            x + "\", \"0 mm\", \"5 mm\"]\n" + towards,
+        folder_ + "/press.toml", {});
+  };
+  const std::string meets =
+      "the finger comes from outside the body and meets it at (-30, 0, 5) mm, 40 mm before the "
+      "place of `at`";
+  const scenario::Family normal = read("");
+  try {
+    (void)run::build_scene(normal.cases.front(), normal);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().front().place.line, 8);
+    EXPECT_EQ(error.problems().front().message,
+              meets +
+                  ", which lies on an inner wall; give a place on the outside, or "
+                  "`finger.towards`");
+  }
+  const auto notes = [](const scenario::Family& family) {
+    const Choice choice = run::choose(family.cases.front());
+    return disproportions(choice.chosen, choice.touch, choice.expected);
+  };
+  const auto across = notes(read("towards = \"x\"\n"));
+  ASSERT_EQ(across.size(), 1u);
+  EXPECT_EQ(across.front(),
+            meets + "; change `finger.at` or `finger.towards` if that is not meant");
+  EXPECT_TRUE(notes(read("", "-30 mm")).empty());
 }
 
 // 20 mm wide and 30 mm high, with a hollow of 8 mm and 10 mm depth in its top.

@@ -112,11 +112,16 @@ TEST(Shapes, GoWithTheirMeshes) {
 }
 
 TEST(Shapes, AMeshThatIsTheBodyIsRead) {
-  const std::string body = shape("kind = \"as_meshed\"") + "mesh = { kind = \"file\", file = \"" +
-                           PALPATE_SOURCE_DIR
+  const std::string mesh = "mesh = { kind = \"file\", file = \"" PALPATE_SOURCE_DIR
                            "/tests/cases/scenes/skin_lump.msh\", unit = \"mm\" }\n";
-  for (const char* model : {"solid", "hertz"})
-    EXPECT_EQ(notes(press + body + "[solver]\nmodel = \"" + model + "\"\n"), "") << model;
+  const std::string solid = "[solver]\nmodel = \"solid\"\n";
+  const std::string body = shape("kind = \"as_meshed\"") + mesh;
+  EXPECT_EQ(notes(press + body + solid), "");
+  EXPECT_EQ(notes(press + body + "[solver]\nmodel = \"hertz\"\n"), "");
+  EXPECT_EQ(notes(press + "[tissue]\n" + mesh + solid), "") << "without a shape it is the body too";
+  EXPECT_EQ(refusal(press + shape("kind = \"ellipsoid\"") + mesh + solid),
+            "press.toml:5:9: a ready mesh brings its own shape; remove `shape`, or mesh it with "
+            "`tissue.mesh = { kind = \"tetgen\", nodes = 728 }`");
 }
 
 TEST(Shapes, HalfSpaceHasNoMesh) {

@@ -290,6 +290,31 @@ TEST(SolidMesher, RefinesGivenTetrahedraWithTheirRegions) {
   EXPECT_NEAR(volumes(mesh)[1], upper, 1e-12 * upper);
 }
 
+// Held up to 7 mm, of layers of 10 mm: a face whose centre is held is held as a whole.
+TEST(SolidMesher, DividesFacesOfAFileAcrossTheBorderOfTheBase) {
+  const geometry::TetMesh given =
+      geometry::cuboid({0.040, 0.036, 0.020}, {4, 4, 2}, geometry::CellPattern::mirrored);
+  const auto mesh_held_to = [&](double level) {
+    MeshOrder order;
+    order.mesh = &given;
+    order.base = Plane{.at = level, .inclined = Vec3::UnitZ()};
+    order.sizes.largest = 1.0;
+    return mesh_for(order);
+  };
+  const Mesh mesh = mesh_held_to(0.007);
+  double held = 0.0;
+  for (const OuterFace& face : mesh.boundary) {
+    const auto corner = [&](std::size_t i) -> const Vec3& {
+      return mesh.nodes[std::size_t(face.nodes[i])];
+    };
+    if ((corner(0) + corner(1) + corner(2)).z() / 3.0 <= 0.007)
+      held += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+  const double border = 2.0 * (0.040 + 0.036);
+  EXPECT_NEAR(held, 0.040 * 0.036 + 0.007 * border, 0.0025 * border);  // half of an edge of 5 mm
+  EXPECT_EQ(mesh_held_to(0.0).elements.size(), given.tetrahedra.size());
+}
+
 TEST(SolidMesher, RefusesALumpThatSticksOut) {
   MeshOrder order = box();
   order.inclusions = {
