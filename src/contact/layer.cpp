@@ -160,10 +160,12 @@ double LayerSolution::force_factor() const { return force / (depth * std::sqrt(d
 
 double LayerSolution::radius_factor() const { return 1.0 / std::sqrt(depth); }
 
-LayerResolution layer_resolution(double greatest_ratio) {
-  // Q's poles are about H / a away from the interval; its cosines have (20 / pi) a / H periods.
+LayerResolution layer_resolution(double greatest_ratio, double top) {
+  // Q's poles are about H / a away from the interval; its cosines have (20 / pi) a / H periods. M
+  // changes from wave numbers of 1 on, and the points of a rule up to 20 / top are densest at 0.
   return {.points = 16 + static_cast<int>(std::ceil(4.0 * greatest_ratio)),
-          .waves = 50 + static_cast<int>(std::ceil(10.0 * greatest_ratio))};
+          .waves = std::max(50 + static_cast<int>(std::ceil(10.0 * greatest_ratio)),
+                            static_cast<int>(std::ceil(40.0 / std::sqrt(top))))};
 }
 
 LayerEquation::LayerEquation(const Layer& layer, const LayerResolution& resolution)
@@ -310,7 +312,8 @@ double LayerEquation::force_factor(double chi) const {
     const double change = (chi - near.chi) / near.chi_slope;
     const double effect = std::abs(near.force_factor() - 1.0);
     if (1.5 * change * change <= 1e-10 * effect * chi * chi) break;
-    near = solve(near.ratio + change, Wanted::force);
+    const double next = near.ratio + change;
+    near = solve(next > 0.0 ? next : 0.25 * near.ratio, Wanted::force);
   }
   const double load = near.chi * near.chi * near.chi * near.force_factor();
   return (load + 1.5 * near.ratio * near.punch * (chi * chi - near.chi * near.chi)) /
@@ -318,13 +321,20 @@ double LayerEquation::force_factor(double chi) const {
 }
 
 std::vector<LayerWave> layer_waves(const Layer& layer, int count) {
-  std::vector<double> numbers(as_index(count));
+  // The time of a rule grows with the square of its points.
+  constexpr int most_points = 4000;
+  const int pieces = (count + most_points - 1) / most_points;
+  std::vector<double> numbers(as_index(count / pieces));
   std::vector<double> weights(numbers.size());
-  gauss_legendre(numbers, weights, last_wave / layer.top());
+  const double width = last_wave / layer.top() / pieces;
+  gauss_legendre(numbers, weights, width);
   std::vector<LayerWave> waves;
-  for (std::size_t k = 0; k < numbers.size(); ++k)
-    waves.push_back(
-        {numbers[k], layer.share * weights[k] * missing_surface_displacement(numbers[k], layer)});
+  for (int piece = 0; piece < pieces; ++piece)
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const double number = numbers[k] + piece * width;
+      waves.push_back(
+          {number, layer.share * weights[k] * missing_surface_displacement(number, layer)});
+    }
   return waves;
 }
 
@@ -449,11 +459,24 @@ double LayerLaw::Scale::value(double place) const {
   return top * place / ((top + last) / last - place);
 }
 
-// D > 1/4 even in very thin layers, so that a/H = chi / sqrt(D) stays below 2 last_chi.
+double last_layer_chi(const Layer& layer) { return std::min(3.0, 12.0 * layer.top()); }
+
 LayerTable::LayerTable(const Layer& layer)
-    : top_(layer.top()),
-      last_chi_(std::min(3.0, 12.0 * top_)),
-      terms_(layer.below.empty() ? 24 : 40) {
+    : top_(layer.top()), last_chi_(last_layer_chi(layer)), terms_(layer.below.empty() ? 24 : 40) {
+  // Where a stiff top layer bends on a soft one the factors fall to a hundredth and less.
+  constexpr double enough = 1e-5;
+  constexpr std::size_t most_terms = 640;
+  fill(layer);
+  while (!layer.below.empty() && terms_ < most_terms && error(layer) > enough) {
+    terms_ *= 2;
+    fill(layer);
+  }
+}
+
+// D > 1/4 even in very thin layers, so that a/H = chi / sqrt(D) stays below 2 last_chi.
+void LayerTable::fill(const Layer& layer) {
+  ratios_.clear();
+  systems_.clear();
   const LayerLaw::Scale scale{top_, 2.0 * last_chi_};
   const std::size_t nodes = terms_ + 4;  // the interval is longer
   // The ratios decrease; after every halving a coarser resolution is sufficient.
@@ -463,11 +486,29 @@ LayerTable::LayerTable(const Layer& layer)
     const double ratio = scale.value(chebyshev_node(i, nodes));
     if (!equation || ratio < 0.5 * greatest) {
       greatest = ratio;
-      equation.emplace(layer, layer_resolution(greatest / top_));
+      equation.emplace(layer, layer_resolution(greatest / top_, top_));
     }
     ratios_.push_back(ratio);
     systems_.push_back(equation->system(ratio, LayerEquation::Wanted::pressure));
   }
+}
+
+// Of the force under a rigid finger, a fraction of it, at some places between those of the table.
+double LayerTable::error(const Layer& layer) const {
+  constexpr std::size_t places = 13;
+  Layer whole = layer;
+  whole.share = 1.0;
+  const LayerLaw law(*this, whole.share);
+  const LayerLaw::Scale scale{top_, 2.0 * last_chi_};
+  double most = 0.0;
+  for (std::size_t i = 0; i < places; ++i) {
+    const double ratio = scale.value(chebyshev_node(i, places));
+    const LayerSolution exact = LayerEquation(whole, layer_resolution(ratio / top_, top_))
+                                    .solve(ratio, LayerEquation::Wanted::force);
+    if (exact.chi > last_chi_) continue;
+    most = std::max(most, std::abs(law.force_factor(exact.chi) / exact.force_factor() - 1.0));
+  }
+  return most;
 }
 
 LayerLaw::LayerLaw(const Layer& layer) : LayerLaw(LayerTable(layer), layer.share) {}

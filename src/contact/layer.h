@@ -47,7 +47,8 @@ struct LayerResolution {
 
 // Sufficient for an error of 1e-8 in every result below if a divided by the top layer's thickness
 // is at most `greatest_ratio` <= 40, and for 1e-10 up to 6; tests/convergence/contact_layer.cpp.
-[[nodiscard]] LayerResolution layer_resolution(double greatest_ratio);
+// `top` is that thickness divided by H.
+[[nodiscard]] LayerResolution layer_resolution(double greatest_ratio, double top = 1.0);
 
 // p(r) of a sphere divided by its mean F / (pi a^2), so that the mean over the disc is 1:
 //   p = sqrt(z) sum_k c_k T_k(2z - 1),   z = 1 - (r/a)^2,   T_k Chebyshev polynomials
@@ -169,6 +170,10 @@ class LayerSurfaceDisplacement {
 // chi = sqrt(R h) / H for h (m), the effective radius R (m) and the thickness H (m); 0 for h <= 0.
 [[nodiscard]] double layer_chi(double depth, double radius, double thickness);
 
+// The largest chi of a LayerLaw: 3; less for several layers with a top layer much thinner than such
+// a contact is wide.
+[[nodiscard]] double last_layer_chi(const Layer& layer);
+
 // The equations from which a LayerLaw is made, for a layer with any `share`.
 class LayerTable {
  public:
@@ -176,6 +181,9 @@ class LayerTable {
 
  private:
   friend class LayerLaw;
+  void fill(const Layer& layer);
+  [[nodiscard]] double error(const Layer& layer) const;
+
   double top_, last_chi_;
   std::size_t terms_;           // of the law's series
   std::vector<double> ratios_;  // a/H
@@ -196,7 +204,6 @@ class LayerLaw {
   // The same with this `share` of the layer of the table, in 0 to 1, to the bit.
   LayerLaw(const LayerTable& table, double share);
 
-  // 3; less for several layers with a top layer much thinner than such a contact is wide.
   [[nodiscard]] double last_chi() const { return scale_.last; }
 
   [[nodiscard]] double force_factor(double chi) const;      // f = F / F_Hertz(h)

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
+#include "base/units.h"
+
 namespace palpate::mechanics {
 
 std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec3& top,
@@ -17,9 +20,9 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
   const double radius = scene.finger.sphere_radius;
   const auto [depth, normal] = surface.pressed(radius, touch.travel);
   if (depth > law->point.last_depth())
-    return "the layer is too thin for this depth: its law is known up to sqrt(R h) = 3 H; press "
-           "less "
-           "deep, or set `solver.model = \"coupled_springs\"`";
+    return "the layer is too thin for this depth: its law is known up to " +
+           rounded_text(unit::mm.from_si(law->point.last_depth()), 3) +
+           " mm; press less deep, or set `solver.model = \"coupled_springs\"`";
   if (scene.depth_ratio) law->point.part = scene.depth_ratio->value(depth);
   const Vec3 before = touch.finger;
   touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();

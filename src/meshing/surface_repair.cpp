@@ -395,7 +395,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
                   : order.pressed     ? nearest_part(parts, *order.pressed)
                                       : 1;
   std::vector<double> volumes;
-  for (const geometry::Surface& part : parts) volumes.push_back(geometry::enclosed(part).volume);
+  for (const geometry::Surface& one : parts) volumes.push_back(geometry::enclosed(one).volume);
   geometry::Surface taken;
   add_part(taken, parts[as_index(own - 1)], volumes[as_index(own - 1)] < 0.0);
   constexpr int most_named = 3;

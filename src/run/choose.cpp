@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "contact/layer.h"
 #include "run/share_out.h"
 #include "run/size_effect.h"
 #include "scenario/integrators.h"
@@ -13,6 +14,7 @@
 #include "scene/places.h"
 #include "scene/proportions.h"
 #include "scene/refining_press.h"
+#include "scene/scene.h"
 #include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
 #include "solid/finger_press.h"
@@ -407,6 +409,9 @@ class Chooser {
     if (!asked_.uniform()) {
       std::string cannot = beyond(traits.of, asked_, choice_.touch).value_or("");
       if (traits.solid && cannot.empty() && !named) cannot = no_solid();
+      if (traits.of == Model::layer && cannot.empty() && !named)
+        if (choice_.expected.chi > contact::last_layer_chi(scene::layers_of(asked_, 1.0)))
+          cannot = "the contact is wider than its law is known for";
       if (!cannot.empty()) {
         choice_.forecasts.push_back({.model = traits.of, .cannot = cannot});
         return;

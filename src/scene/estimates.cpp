@@ -60,7 +60,7 @@ double inertia_effect(const scenario::Resolved::Tissue& tissue, const contact::S
 // Quadrature of one layer, good to 3e-7 of the effect of its thickness at a fifth of the cost of
 // the default one.
 contact::LayerResolution resolution(const contact::Layer& layer, double greatest_ratio) {
-  if (!layer.below.empty()) return contact::layer_resolution(greatest_ratio);
+  if (!layer.below.empty()) return contact::layer_resolution(greatest_ratio, layer.top());
   return {.points = 6 + static_cast<int>(std::ceil(4.0 * greatest_ratio)),
           .waves = 24 + static_cast<int>(std::ceil(10.0 * greatest_ratio))};
 }

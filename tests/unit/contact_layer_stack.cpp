@@ -65,6 +65,29 @@ TEST(LayerStack, SofterBelowIsSofter) {
   EXPECT_LT(test::layer_first_coefficient(surface_on(0.1)), 0.0);
 }
 
+// Skins that bend on a base 200 to 400 times softer: by LayerEquation, and the force on 20 mm of
+// 5 kPa under 0.1 mm of 2000 kPa, pressed 0.2 mm by a sphere of 6 mm, which a program with finite
+// elements over the depth for each wave number and Hayes's equation has at 2.18 mN.
+TEST(LayerStack, StiffSkinsFollowTheEquation) {
+  const auto skin = [](double thickness, double below, double stiffness) {
+    return Layer{.poisson_ratio = 0.45,
+                 .below = {{below / (below + thickness), 1.0 / stiffness, 0.45}}};
+  };
+  for (const Layer& layer : {skin(0.1, 20.0, 400.0), skin(0.1, 10.0, 200.0), skin(0.5, 20.0, 400.0),
+                             skin(1.0, 20.0, 200.0)}) {
+    const LayerLaw law(layer);
+    for (const double part : {0.01, 0.1, 0.3, 0.6, 0.95}) {
+      const double chi = part * law.last_chi();
+      const LayerEquation equation(layer, {.points = 120, .waves = 700});
+      const double exact = equation.force_factor(chi);
+      EXPECT_NEAR(law.force_factor(chi) / exact, 1.0, 2e-5) << layer.top() << " " << chi;
+    }
+  }
+  const LayerContact contact{6e-3, 2e6 / (1.0 - 0.45 * 0.45), 20.1e-3,
+                             LayerLaw(skin(0.1, 20.0, 400.0))};
+  EXPECT_NEAR(contact.force(0.2e-3), 2.18e-3, 0.005e-3);
+}
+
 // 1e-5, as the header says.
 TEST(LayerStack, TheLawFollowsTheEquation) {
   for (const Layer& layer :
