@@ -120,6 +120,7 @@ class Words {
       double_counting();
       large_strains();
       viscosity();
+      fresh_tissue();
       waves();
     }
     std::stable_sort(all_.begin(), all_.end(), [](const Neglected& a, const Neglected& b) {
@@ -249,7 +250,8 @@ class Words {
   void ball() {
     if (traits_.solid || e_.ball <= 0.2 * tolerance()) return;
     omit("the size of the finger, a ball that is stiffer than Hertz's law has it", e_.ball,
-         would_change(e_.ball), waves_matter() ? "" : "set `solver.model = \"solid\"`");
+         would_change(e_.ball),
+         waves_matter() || !meshable() ? "" : "set `solver.model = \"solid\"`");
   }
 
   // By how much a half-space under `series` is too soft.                 docs/theory.md [depth]
@@ -267,7 +269,7 @@ class Words {
       return omit(
           "large strains", most,
           "which may change the force by up to " + percent_text(most) + " where it is deepest",
-          waves_matter()     ? "press less deep"
+          waves_matter() || !meshable() ? "press less deep"
           : mesh_is_tissue() ? "set `solver.model = \"solid\"` and remove `contact.coupling`"
                              : "set `solver.model = \"solid\"`");
     std::string remedy = "add `contact.depth = \"neo_hookean\"`";
@@ -298,14 +300,28 @@ class Words {
          "viscosity");
   }
 
+  // The contact relaxes as if the finger stayed where it is.
+  void fresh_tissue() {
+    if (scene_.relaxation.elastic() || e_.fresh <= 0.2 * tolerance()) return;
+    omit("that a slide loads tissue which has not relaxed", e_.fresh,
+         would_change(e_.fresh) + " at most while the finger slides", "slide more slowly",
+         "tissue that has not relaxed");
+  }
+
   void waves() {
     if (!waves_matter()) return;
     const std::string when = would_change(e_.inertia) + " at this speed";
-    if (!traits_.inertia) return omit("inertia of the tissue", e_.inertia, when, mesh_with_waves());
+    if (!traits_.inertia)
+      return omit("inertia of the tissue", e_.inertia, when,
+                  meshable() ? mesh_with_waves() : "press more slowly");
     if (scene::inertia_reaches_force(scene_.scenario) || mesh_is_tissue()) return;
     omit("inertia of the tissue", e_.inertia, when,
          "take an integrator with inertia and " + viscosity_with_waves() +
              ", or `contact.coupling = \"resolved\"`");
+  }
+
+  [[nodiscard]] bool meshable() const {
+    return !std::holds_alternative<scenario::HalfSpace>(scene_.scenario.tissue.shape);
   }
 
   // `solid` is no remedy then, because it has no inertia.
@@ -314,7 +330,8 @@ class Words {
   // Waves reach the force of a mesh where its springs do not damp them.
   [[nodiscard]] std::string mesh_with_waves() const {
     std::string mesh = "set `solver.model = \"coupled_springs\"`";
-    if (scene_.scenario.tissue.viscosity != tissue::Viscosity::none)
+    if (scene_.scenario.tissue.viscosity != tissue::Viscosity::none &&
+        scene_.scenario.tissue.viscosity != tissue::Viscosity::standard_linear_solid)
       mesh += " and " + viscosity_with_waves();
     return mesh;
   }

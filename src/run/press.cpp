@@ -179,6 +179,7 @@ class Press {
         if (touch_.force() >= motion.force) {
           time_ = start + time;
           write_row();
+          if (to_force) tell_excess(motion.force);
           return true;
         }
       }
@@ -196,6 +197,15 @@ class Press {
       return diverged(
           "the force of the step was not reached; give a smaller force, or a displacement as `to`");
     return true;
+  }
+
+  // A step to a force ends with the first step of the solver that reaches it.
+  void tell_excess(double wanted) {
+    constexpr double worth_telling = 0.01;
+    if (touch_.force() <= (1.0 + worth_telling) * wanted) return;
+    record_.warnings.push_back(
+        "a step to " + rounded_text(wanted, 3) + " N ended at " + rounded_text(touch_.force(), 3) +
+        " N, with the first step in time that reached it; take a smaller `output.interval`");
   }
 
   // Where the displacement does not reach the force, inverted tetrahedra are looked for only if

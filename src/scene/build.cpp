@@ -372,7 +372,7 @@ Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenS
   scene.scenario = scene.choice.chosen;
   const scenario::Resolved& scenario = scene.scenario;
   if (!scenario.uniform()) scene.finger = make_finger(scenario);
-  scene.relaxation = contact_relaxation(scenario, scene.finger);
+  scene.relaxation = contact_relaxation(scene);
   refuse_beyond(scene, family, shapes);
   refuse_sliding(scene, family);
   if (!scenario.uniform()) set_depth_ratio(scene, family);
@@ -428,9 +428,44 @@ contact::Relaxation relaxation_of(const tissue::ViscousLaw& law) {
   return relaxation;
 }
 
-contact::Relaxation contact_relaxation(const scenario::Resolved& scenario, const Finger& finger) {
+namespace {
+
+// The finger's part of the compliance behind which the tissue relaxes: a thin layer or a body that
+// is stiffer than a half-space has less of it than their half-spaces have. At once and at rest the
+// modulus is then that of the elastic forces.                          docs/theory.md [relaxation]
+double finger_share_on_body(const Scene& scene) {
+  const double share = scene.finger.compliance_share;
+  const Estimates& found = scene.choice.expected;
+  if (share <= 0.0 || share >= 1.0 || !std::isfinite(found.size)) return share;
+  const scenario::Resolved& scenario = scene.scenario;
+  if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape) ||
+      found.chi > contact::last_layer_chi(layers_of(scenario, 1.0))) {
+    const double stiffer = 1.0 + found.size / (1.0 - share);
+    return stiffer > 0.0 ? share * stiffer / (1.0 - share + share * stiffer) : share;
+  }
+  // The force of tissue that is `softness` times as compliant, over that of a rigid half-space. The
+  // ball of a finger that `solid` computes is stiffer than its half-space.
+  const double ball = scenario::traits(scenario.solver.model).solid ? found.ball : 0.0;
+  const auto force = [&](double softness) {
+    const double compliance = share + softness * (1.0 - share);
+    const contact::Layer layer = layers_of(scenario, softness * (1.0 - share) / compliance);
+    const contact::LayerResolution resolution =
+        contact::layer_resolution(2.0 * found.chi / layer.top(), layer.top());
+    return share / compliance * (1.0 + ball / compliance) *
+           contact::LayerEquation(layer, resolution).force_factor(found.chi);
+  };
+  const double at_once =
+      scenario.tissue.law.time > 0.0 ? 0.0 : 1.0 / scenario.tissue.law.instantaneous_ratio();
+  return 1.0 - (1.0 - force(1.0) / force(at_once)) / (1.0 - at_once);
+}
+
+}  // namespace
+
+contact::Relaxation contact_relaxation(const Scene& scene) {
+  const scenario::Resolved& scenario = scene.scenario;
   if (!scenario::viscous_contact(scenario) || scenario.uniform()) return {};
-  return contact::behind_finger(relaxation_of(scenario.tissue.law), finger.compliance_share);
+  const contact::Relaxation tissue = relaxation_of(scenario.tissue.law);
+  return tissue.elastic() ? tissue : contact::behind_finger(tissue, finger_share_on_body(scene));
 }
 
 contact::Layer layers_of(const scenario::Resolved& scenario, double share) {

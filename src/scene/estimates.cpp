@@ -35,14 +35,25 @@ double fastest_rate(const scenario::Resolved& scenario) {
 
 // In a ramp of duration T, Kelvin-Voigt increases the force by tau F'/F = 3/2 tau/T, and a branch
 // of ratio b by about b x (1 - exp(-1/x)), x = tau/T.
+// Of a force that grows with the power 3/2 of time:
+//   int_0^1 3/2 sqrt(s) exp(-(1 - s)/y) ds,   y = tau / duration
+double unrelaxed(double y) {
+  constexpr double short_time = 0.02;
+  if (y < short_time) return 1.5 * y * (1.0 - 0.5 * y);
+  const numerics::GaussRule& rule = numerics::gauss_rule(32);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double s = 0.5 * (1.0 + rule.nodes[i]);
+    sum += 0.5 * rule.weights[i] * 1.5 * std::sqrt(s) * std::exp(-(1.0 - s) / y);
+  }
+  return sum;
+}
+
 double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration) {
   if (duration <= 0.0) return 0.0;
-  const tissue::ViscousLaw& law = tissue.law;
-  double sum = 1.5 * law.time / duration;
-  for (const tissue::Branch& branch : law.branches) {
-    const double x = branch.time / duration;
-    sum += branch.ratio * x * -std::expm1(-1.0 / x);
-  }
+  double sum = 1.5 * tissue.law.time / duration;
+  for (const tissue::Branch& branch : tissue.law.branches)
+    sum += branch.ratio * unrelaxed(branch.time / duration);
   return sum;
 }
 
@@ -183,6 +194,12 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
   found.viscous = found.tissue_share *
                   viscous_effect(tissue, found.rate > 0.0 ? found.travel / found.rate : 0.0);
   found.inertia = found.tissue_share * inertia_effect(tissue, law, found.travel, found.rate);
+  // Tissue that a sliding finger reaches is loaded while the contact passes.
+  for (const scenario::Step& step : scenario.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step))
+      found.fresh = std::max(
+          found.fresh,
+          found.tissue_share * viscous_effect(tissue, 2.0 * found.contact_radius / slide->rate));
   return found;
 }
 

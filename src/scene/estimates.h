@@ -28,6 +28,7 @@ struct Estimates {
   double deep = 0.0;             // change in neo-Hookean tissue by `depth_ratio`; [deep]
   double deep_error = 0.0;       // of that, or a bound where there is none
   double viscous = 0.0;          // increase by the tissue's viscosity
+  double fresh = 0.0;            // increase by that of the tissue that a slide reaches
   double deep_bound = 0.0;       // of what large strains change
   double inertia = 0.0;          // change by waves that the contact radiates, and by `swing`
   double swing = 0.0;            // the part of a body that swings as a whole

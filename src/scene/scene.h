@@ -224,8 +224,7 @@ struct Scene {
 // empty (elastic) if the contact does not include viscosity.
 // A tissue's law as that of its modulus.
 [[nodiscard]] contact::Relaxation relaxation_of(const tissue::ViscousLaw& law);
-[[nodiscard]] contact::Relaxation contact_relaxation(const scenario::Resolved& scenario,
-                                                     const Finger& finger);
+[[nodiscard]] contact::Relaxation contact_relaxation(const Scene& scene);
 
 // Whether all regions are layers; true without regions.
 [[nodiscard]] bool all_slabs(const scenario::Resolved& scenario);

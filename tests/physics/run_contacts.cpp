@@ -198,6 +198,41 @@ double normal_force(const Settings& settings, const std::string& text = mesh_pre
   return run_press(settings, text).contact.back().contact_force;
 }
 
+// Tissue that does not relax during the press is as stiff as at once, and Kelvin-Voigt tissue that
+// does not yield is a wall, into which the elastic finger alone is pressed.
+TEST(Contacts, AnElasticFingerOnAThinLayerThatDoesNotRelaxIsElastic) {
+  const auto force = [](const std::string& tissue, const std::string& model,
+                        const std::string& finger) {
+    return test::run_text(
+               "[tissue]\npoisson_ratio = 0.45\n" + tissue +
+               "[finger]\npoisson_ratio = 0.45\nradius = \"8 mm\"\nyoung_modulus = \"" + finger +
+               "\"\n[solver]\nmodel = \"" + model +
+               "\"\n[[step]]\nto = \"1 mm\"\nrate = \"2.5 mm/s\"\n[output]\npressure_maps = "
+               "false\n")
+        .contact.back()
+        .contact_force;
+  };
+  const std::string thin = "shape = { size = [\"80 mm\", \"80 mm\", \"5 mm\"] }\n";
+  const std::string relaxing =
+      "young_modulus = \"10 kPa\"\nviscosity = \"standard_linear_solid\"\nrelaxation_time = "
+      "\"1e5 s\"\ninstantaneous_ratio = 5\n" +
+      thin;
+  const std::string elastic = "young_modulus = \"50 kPa\"\nviscosity = \"none\"\n" + thin;
+  for (const char* finger : {"20 kPa", "200 kPa"}) {
+    const double at_once = force(elastic, "layer", finger);
+    EXPECT_NEAR(force(relaxing, "layer", finger), at_once, 2e-3 * at_once) << finger;
+  }
+  // Of a ball the share of the compliance goes into its own size as well, to first order.
+  const double at_once = force(elastic, "solid", "200 kPa");
+  EXPECT_NEAR(force(relaxing, "solid", "200 kPa"), at_once, 0.04 * at_once);
+  const double alone = contact::hertz::force(1e-3, 8e-3, 20e3 / (1.0 - 0.45 * 0.45));
+  EXPECT_NEAR(force("young_modulus = \"10 kPa\"\nviscosity = \"kelvin_voigt\"\nretardation_time = "
+                    "\"1e4 s\"\n" +
+                        thin,
+                    "layer", "20 kPa"),
+              alone, 5e-3 * alone);
+}
+
 TEST(EightSpheres, PressAFlatLikeTheOneTheyReplace) {
   for (const std::string& coupling : couplings) {
     const std::string coupled = "contact.coupling=" + coupling;

@@ -157,6 +157,74 @@ TEST(Explain, SaysWhatLargeStrainsChangeOfUniformTests) {
   EXPECT_TRUE(says(small, "Neglected: nothing ")) << small;
 }
 
+const std::string relaxing_half_space =
+    "[tissue]\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.45\nshape = { kind = \"half_space\" "
+    "}\nviscosity = \"standard_linear_solid\"\nrelaxation_time = \"0.02 s\"\n"
+    "instantaneous_ratio = 3\n[finger]\nmaterial = \"rigid\"\nradius = \"8 mm\"\n";
+
+// Under a ramp of T the force of Lee and Radok has (E_0/E_inf - 1) times the integral over s of
+// 3/2 sqrt(s) exp(-(1 - s) T / tau) more: 14.6 % for tau 0.02 s and T 0.4 s.
+TEST(Explain, SaysWhatViscosityAddsToARamp) {
+  const TemporaryFolder folder;
+  write_file(folder / "ramp.toml", relaxing_half_space +
+                                       "[contact]\nviscosity = \"none\"\n[[step]]\nto = \"4 "
+                                       "mm\"\nrate = \"10 mm/s\"\n");
+  const Ended ended = palpate(folder.path(), {"explain", "ramp.toml"});
+  EXPECT_NE(ended.out.find("Neglected: viscosity, which would add 15 % to the force while"),
+            std::string::npos)
+      << ended.out << ended.err;
+}
+
+// A contact of 2 a = 4 mm passes in 0.2 s, a hundredth of the relaxation time.
+TEST(Explain, SaysThatASlideReachesTissueThatHasNotRelaxed) {
+  const TemporaryFolder folder;
+  write_file(folder / "slide.toml", relaxing_half_space +
+                                        "[[step]]\nto = \"0.5 mm\"\n[[step]]\nkind = \"slide\"\n"
+                                        "by = \"40 mm\"\nrate = \"20 mm/s\"\n");
+  const auto sentences = [&](const char* setting) {
+    return palpate(folder.path(), {"explain", "slide.toml", "--set", setting}).out;
+  };
+  const std::string slow = sentences("tissue.relaxation_time=20 s");
+  EXPECT_NE(slow.find("a slide loads tissue which has not relaxed, which would add 200 % to the "
+                      "force at most while the finger slides"),
+            std::string::npos)
+      << slow;
+  const std::string quick = sentences("tissue.relaxation_time=0.1 ms");
+  EXPECT_EQ(quick.find("has not relaxed"), std::string::npos) << quick;
+}
+
+TEST(Explain, GivesAHalfSpaceNoRemedyThatNeedsAMesh) {
+  const TemporaryFolder folder;
+  write_file(folder / "deep.toml", relaxing_half_space +
+                                       "[contact]\ndepth = \"hertz\"\n[solver]\nmodel = "
+                                       "\"hertz\"\n[[step]]\nto = \"4 mm\"\nrate = \"2 m/s\"\n");
+  const std::string deep = palpate(folder.path(), {"explain", "deep.toml"}).out;
+  const std::string sentences = deep.substr(0, deep.find("\n\n"));
+  EXPECT_NE(sentences.find("inertia of the tissue"), std::string::npos) << deep;
+  EXPECT_NE(sentences.find("press more slowly"), std::string::npos) << deep;
+  EXPECT_EQ(sentences.find("solver.model = \"solid\""), std::string::npos) << deep;
+  EXPECT_EQ(sentences.find("coupled_springs"), std::string::npos) << deep;
+}
+
+TEST(Explain, OfAStepToAForceSaysWhatItPassed) {
+  const TemporaryFolder folder;
+  write_file(folder / "force.toml", relaxing_half_space +
+                                        "[[step]]\nto = \"50 mN\"\nrate = \"10 mm/s\"\n"
+                                        "[output]\nreport = false\nfigures = false\n");
+  const auto told = [&](const char* interval) {
+    return palpate(folder.path(), {"run", "force.toml", "--force", "--set",
+                                   std::string("output.interval=") + interval})
+        .err;
+  };
+  const std::string coarse = told("100 ms");
+  EXPECT_NE(coarse.find("a step to 0.05 N ended at 0.071 N, with the first step in time that "
+                        "reached it; take a smaller `output.interval`"),
+            std::string::npos)
+      << coarse;
+  const std::string fine = told("0.5 ms");
+  EXPECT_EQ(fine.find("a step to"), std::string::npos) << fine;
+}
+
 // Every heading with a table, every key and every word that a table of the manual begins with.
 // With `one_way` every model has the force of a half-space, however thin the tissue.
 TEST(Explain, SaysThatTheCouplingKeepsModelsAway) {
