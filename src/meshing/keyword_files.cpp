@@ -290,8 +290,9 @@ class MeditReader {
   // others: their first line tells, which ends in a reference.
   int width(int corners, int quadratic, bool named) {
     const bool whole_line = next() && word_ == 0;
-    return named || (whole_line && lines_.words().size() == as_index(quadratic) + 1) ? quadratic
-                                                                                     : corners;
+    const bool curved =
+        quadratic > 0 && whole_line && lines_.words().size() == as_index(quadratic) + 1;
+    return named || curved ? quadratic : corners;
   }
   void solids(int corners, int quadratic = 0, bool named = false) {
     int left = whole("the number of cells");

@@ -131,8 +131,10 @@ class Words {
 
  private:
   [[nodiscard]] double tolerance() const { return scene_.scenario.solver.tolerance; }
+  // A formula that the scenario names reads no coupling.
   [[nodiscard]] bool one_way() const {
-    return scene_.scenario.contact.coupling == contact::Coupling::one_way;
+    return scene_.scenario.contact.coupling == contact::Coupling::one_way &&
+           !(scene_.choice.given && traits_.formula());
   }
   [[nodiscard]] bool mesh_is_tissue() const {
     return contact::mesh_is_tissue(scene_.scenario.contact.coupling);

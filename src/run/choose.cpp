@@ -187,7 +187,8 @@ class Chooser {
     const bool box = std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape);
     measure();
     const Estimates& e = choice_.expected;
-    if (asked_.contact.coupling == contact::Coupling::one_way && !reason) {
+    const bool named_formula = choice_.given && scenario::traits(model_).formula();
+    if (asked_.contact.coupling == contact::Coupling::one_way && !reason && !named_formula) {
       ask(Asked::force_knows_mesh, 0.0, 1.0);
       if (!choice_.given) model_ = Model::hertz;
       return;

@@ -120,13 +120,10 @@ void complete_shape(Scenario& scenario, const Node& document) {
   if (limb->bone_radius > 0.0) scenario.regions.push_back({{TaggedRegion{2}, "bone"}});
 }
 
-// A formula reads no coupling. Sets the viscosity of the contact if the scenario leaves it open. It
-// is included only if the scenario gives `tissue.viscosity`, because the viscosity of most
-// materials is an assumption.
+// Sets the viscosity of the contact if the scenario leaves it open. It is included only if the
+// scenario gives `tissue.viscosity`, because the viscosity of most materials is an assumption.
 void complete_contact(Scenario& scenario, const Node& document) {
   using Viscosity = Contact::Viscosity;
-  if (scenario.solver.model && traits(*scenario.solver.model).formula())
-    scenario.contact.coupling = contact::Coupling::consistent;
   if (scenario.contact.viscosity) return;
   const Member* tissue = document.find("tissue");
   const bool given = tissue != nullptr && tissue->value.find("viscosity") != nullptr;
