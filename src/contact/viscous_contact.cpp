@@ -95,7 +95,8 @@ double Relaxation::modulus_ratio(double time) const {
 double Relaxation::ramp_response(double rate, double ramp_time, double time) const {
   const double grown = std::min(time, ramp_time);
   double strain = rate * grown;
-  if (time < ramp_time) strain += rate * retardation_time;
+  constexpr double rounding = 1e-12;  // the end belongs to the ramp
+  if (time <= (1.0 + rounding) * ramp_time) strain += rate * retardation_time;
   for (const Branch& branch : branches)
     strain += branch.ratio * rate * branch.time * std::exp(-(time - grown) / branch.time) *
               -std::expm1(-grown / branch.time);

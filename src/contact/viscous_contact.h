@@ -26,7 +26,7 @@ struct Relaxation {
   // E(t) / E_inf for t >= 0 (s); 1 for Kelvin-Voigt, without the impulse at t = 0.
   [[nodiscard]] double modulus_ratio(double time) const;
   // Stress over E_inf at `time` (s) after the start of a strain that grows at `rate` (1/s) for
-  // `ramp_time` (s) and then stays.                                 docs/theory.md [compression]
+  // `ramp_time` (s), at whose end it still grows, and then stays. docs/theory.md [compression]
   [[nodiscard]] double ramp_response(double rate, double ramp_time, double time) const;
 };
 

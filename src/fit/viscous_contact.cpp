@@ -164,6 +164,17 @@ class ViscousFit {
   }
 
  private:
+  // `to`, or the end of a hold that begins there, whose force tells most of the law: three times as
+  // many rows near the deepest one as before it. A finger that turns back has as many.
+  [[nodiscard]] std::size_t with_hold(std::size_t to) const {
+    constexpr double near = 0.98;  // of the range: what a stand may wander while it holds
+    const auto [low, high] = std::minmax_element(depth_.begin(), depth_.end());
+    const double deep = *low + near * (*high - *low);
+    std::size_t begin = to, end = to;
+    while (begin > 0 && depth_[begin - 1] >= deep) --begin;
+    while (end < depth_.size() && depth_[end] >= deep) ++end;
+    return end - to > 3 * (to - begin) ? end : to;
+  }
   [[nodiscard]] Kernel kernel_of(std::span<const double> s) const {
     Kernel kernel;
     kernel.model = model_;
@@ -187,11 +198,12 @@ class ViscousFit {
       force_.push_back(force[i]);
     }
     need_points(fit_.name, 10, time_.size());
-    const OneWay part = one_way(depth_, test_.way);
+    OneWay part = one_way(depth_, test_.way);
+    if (test_.way == Way::approach) part.to = with_hold(part.to);
     fit_.excluded = static_cast<int>(time.size() - time_.size());
     leave_out(
         fit_, time_.size() - part.to,
-        "the way back from the deepest row; `--segment all` fits both ways, by Ting's contact");
+        "the way back from the deepest rows; `--segment all` fits both ways, by Ting's contact");
     for (std::vector<double>* each : {&time_, &depth_, &force_}) each->resize(part.to);
     const auto [low, high] = std::minmax_element(depth_.begin(), depth_.end());
     low_ = *low;

@@ -93,6 +93,30 @@ TEST(ViscousContact, TingsWayBack) {
   EXPECT_NEAR(fit.parameters[1].estimate, beta, 3e-3);
 }
 
+// Pressed in 0.2 s, held for 1.8 s, and drawn back: of the approach and the hold the moduli and the
+// time are known, of the approach alone E_inf is not.
+TEST(ViscousContact, AHoldBelongsToTheApproach) {
+  constexpr double in = 0.2, held = 2.0, rate = 4e-6, tau = 0.4;
+  Press press;
+  for (int i = 0; i <= 660; ++i) {
+    const double t = i / 300.0;
+    press.time.push_back(t);
+    press.depth.push_back(rate * (t <= in ? t : t <= held ? in : std::max(0.0, held + in - t)));
+    press.force.push_back(t > held ? 0.0
+                                   : std::pow(rate / speed, 1.5) * factor() *
+                                         superposed(t, std::min(t, in), [](double age) {
+                                           return 500.0 + 1000.0 * std::exp(-age / tau);
+                                         }));
+  }
+  const Fit fit =
+      fit_viscous(press.time, press.depth, press.force, {.radius = probe}, Viscous::solid);
+  ASSERT_EQ(fit.termination, Termination::converged);
+  EXPECT_NEAR(fit.parameters[0].estimate, 0.5, 0.01);  // kPa, E_inf
+  EXPECT_NEAR(fit.parameters[1].estimate, 1.5, 0.03);  // E_0
+  EXPECT_NEAR(fit.parameters[2].estimate, tau, 0.01);  // s
+  EXPECT_EQ(fit.excluded, 59);  // the way back, but for the row that is still at 98 %
+}
+
 TEST(ViscousContact, StandardLinearSolid) {
   Press press;
   for (int i = 0; i <= 400; ++i) {
