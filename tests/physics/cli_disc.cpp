@@ -29,7 +29,7 @@ class ADiscOfTissue : public testing::Test {
 TEST_F(ADiscOfTissue, yields_as_hooke_says_between_slippery_platens) {
   const double stress =
       last("squeezed",
-           "[tissue]\nyoung_modulus = \"20 kPa\"\nbase = \"frictionless\"\n"
+           "[tissue]\nyoung_modulus = \"20 kPa\"\nbase = \"frictionless\"\nviscosity = \"none\"\n"
            "shape = { kind = \"disc\", radius = \"6 mm\", height = \"5 mm\" }\n"
            "[solver]\nmodel = \"coupled_springs\"\nintegrator = \"quasi_static\"\n"
            "[[step]]\nkind = \"compress\"\nstrain = 0.02\nrate = \"0.1 1/s\"\n",
