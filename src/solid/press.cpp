@@ -418,13 +418,13 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     contact_.add(u, indenters, none, force, stiffness_, met);
     Answer answer;
     double work = 0.0;
-    for (std::size_t i = 0; i < met.size(); ++i) {
-      const Met& one = met[i];
+    for (std::size_t k = 0; k < met.size(); ++k) {
+      const Met& one = met[k];
       answer.forces.push_back(-body_.copies * one.force.z());
       answer.force -= body_.copies * one.force;
       work += body_.copies * one.work;
       answer.area += body_.copies * one.area;
-      if (one.area > 0.0) answer.touching += images_of(indenters_[i].pole);
+      if (one.area > 0.0) answer.touching += images_of(indenters_[k].pole);
     }
     for (int axis = 0; axis < 2; ++axis)
       if (body_.mirrored[as_index(axis)]) answer.force[axis] = 0.0;
