@@ -425,13 +425,13 @@ run::SurfaceReference refer_surface(const Asked& asked, std::size_t of_case) {
 }
 
 record::Table reference_table(const std::vector<std::pair<std::string, Reference>>& cases) {
-  std::size_t levels = 0;
+  std::size_t columns = 0;
   for (const auto& [name, reference] : cases)
-    for (const ReferenceRow& row : reference.rows) levels = std::max(levels, row.forces.size());
+    for (const ReferenceRow& row : reference.rows) columns = std::max(columns, row.forces.size());
   record::Table table{
       {"case", "step", "time_s", "travel_mm", "slide_mm", "contact_force_N", "error_N", "order"},
       {}};
-  for (std::size_t i = 1; i <= levels; ++i)
+  for (std::size_t i = 1; i <= columns; ++i)
     table.columns.push_back("level_" + std::to_string(i) + "_N");
   for (const auto& [name, reference] : cases)
     for (const ReferenceRow& row : reference.rows) {

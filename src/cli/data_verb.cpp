@@ -178,7 +178,9 @@ struct LargeStrain {
   std::string law, note;
 };
 LargeStrain large_strain(const measured::MeasuredCurve& curve) {
-  const auto [strain, loading] = strained(Fit(), curve);
+  const Strained stretched = strained(Fit(), curve);
+  const std::vector<double>& strain = stretched.strain;
+  const Loading loading = stretched.loading;
   const double line = left_by(strain, curve.y, {});
   const auto ogden = [&](Loading each) {
     return left_by(strain, curve.y, {.model = Uniaxial::ogden, .loading = each});

@@ -256,11 +256,11 @@ GuardProcess::GuardProcess(int file, Heed heed) : heed_(heed) {
   shared_->looked = wire_time();
   // All signals are blocked in the guard, from its first moment on.
   sigset_t all;
-  sigset_t before;
+  sigset_t usual;
   ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  ::pthread_sigmask(SIG_SETMASK, &all, &usual);
   child_ = ::fork();
-  if (child_ != 0) ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (child_ != 0) ::pthread_sigmask(SIG_SETMASK, &usual, nullptr);
   if (child_ < 0) refuse();
   if (child_ == 0) {
     socket_ = {};

@@ -79,12 +79,12 @@ class GaugeLoop {
       framed_ = now;
     }
     staleness_.step(now, sample.arrival);
-    const bool silent = staleness_.state() == device::Staleness::State::lost ||
-                        (stepped() && sample.arrival == Arrival::none && ++unheard_ > 2);
+    const bool no_answer = staleness_.state() == device::Staleness::State::lost ||
+                           (stepped() && sample.arrival == Arrival::none && ++unheard_ > 2);
     if (sample.fault == Fault::overload) {
       note(LinkState::tripped, sample.fault);
       ends(ended_by_link(Trip::overload, Fault::none));
-    } else if (sample.arrival == Arrival::lost || silent) {
+    } else if (sample.arrival == Arrival::lost || no_answer) {
       note(LinkState::lost, sample.fault);
       ends(ended_by_link(Trip::link_lost,
                          sample.fault == Fault::none ? Fault::silent : sample.fault));

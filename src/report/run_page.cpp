@@ -219,12 +219,12 @@ void add_forces(Rows& rows, const scenario::Family& family, const Records& recor
     const Predicted one = predicted(family, record);
     if (!(one.equation > 0.0)) continue;
     const double off = one.force / one.equation - 1.0;
-    constexpr double rounding = 1e-3;  // a thousandth is less than the digits of Table 1
+    constexpr double digits = 1e-3;  // a thousandth is less than the digits of Table 1
     rows.add("Eq. (2) with Table 1, " + record.name + " at " +
                  rounded_text(unit::mm.from_si(one.indentation), 3) +
                  " mm: " + rounded_text(one.equation, 4) + " N",
-             rounded_text(one.force, 4) + " N", agrees(std::abs(off) < rounding),
-             std::abs(off) < rounding
+             rounded_text(one.force, 4) + " N", agrees(std::abs(off) < digits),
+             std::abs(off) < digits
                  ? "the run computes eq. (2)"
                  : "another law than eq. (2) ran here: " + finding_word(record, "model"));
   }

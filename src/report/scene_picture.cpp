@@ -415,9 +415,9 @@ SceneFrame scene_frame(const ScenePicture& picture) {
     step *= span / (5.0 * step) >= 3.0 ? 5.0 : span / (2.0 * step) >= 3.0 ? 2.0 : 1.0;
     // Fewer where the axis is seen from its end.
     const Vec3 direction = picture.axes.col(axis);
-    const double seen = std::hypot(direction.dot(view.right), direction.dot(view.up));
+    const double seen_length = std::hypot(direction.dot(view.right), direction.dot(view.up));
     constexpr double apart = 0.04;  // of the size
-    if (const double least = apart * unit::mm.from_si(size) / seen; step < least) {
+    if (const double least = apart * unit::mm.from_si(size) / seen_length; step < least) {
       step = std::pow(10.0, std::floor(std::log10(least)));
       step *= least <= 2.0 * step ? 2.0 : least <= 5.0 * step ? 5.0 : 10.0;
     }

@@ -111,7 +111,7 @@ bool SolidPress::simpler() {
   return true;
 }
 
-solid::FingerOrder SolidPress::order(double per_radius) const {
+solid::FingerOrder SolidPress::order(double elements) const {
   const scenario::Resolved& scenario = scene_->scenario;
   const scene::SolidBody& given = body();
   const scene::Finger& finger = scene_->finger;
@@ -141,7 +141,7 @@ solid::FingerOrder SolidPress::order(double per_radius) const {
   body.base_level = given.base_level;
   body.base_up = scenario.tissue.base_up;
   body.mirrored = {true, true};
-  body.per_radius = finer_ * per_radius / std::clamp(width_, solid::most_narrowed, 1.0);
+  body.per_radius = finer_ * elements / std::clamp(width_, solid::most_narrowed, 1.0);
   order.outer_surface = given.outer_surface.get();
   order.centres = finger.centres;
   order.radius = finger.sphere_radius;
