@@ -293,9 +293,9 @@ bool GuardProcess::alive() {
 }
 
 bool GuardProcess::has_acted() {
-  const unsigned before = seen_;
+  const unsigned earlier = seen_;
   seen_ = shared_->stops;
-  return seen_ != before;
+  return seen_ != earlier;
 }
 
 }  // namespace palpate::device

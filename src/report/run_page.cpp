@@ -37,7 +37,7 @@ struct Row {
   std::string_view label;
 };
 
-constexpr std::array rows{
+constexpr std::array finding_rows{
     Row{"outcome", course, "", "how the case ended"},
     Row{"last_stable_time_s", course, "s", "last stable time"},
     Row{"model", course, "", "model that ran"},
@@ -135,9 +135,9 @@ const std::vector<FindingGroup>& finding_groups() {
 }
 
 FindingWords words_of_finding(const std::string& name) {
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.name == name; });
-  if (row != rows.end())
+  const auto row = std::find_if(finding_rows.begin(), finding_rows.end(),
+                                [&](const Row& each) { return each.name == name; });
+  if (row != finding_rows.end())
     return {.group = row->group, .label = std::string(row->label), .unit = std::string(row->unit)};
   return {.group = finding_groups().size() - 1, .label = name};
 }
@@ -219,12 +219,12 @@ void add_forces(Rows& rows, const scenario::Family& family, const Records& recor
     const Predicted one = predicted(family, record);
     if (!(one.equation > 0.0)) continue;
     const double off = one.force / one.equation - 1.0;
-    constexpr double digits = 1e-3;  // a thousandth is less than the digits of Table 1
+    constexpr double rounding = 1e-3;  // a thousandth is less than the digits of Table 1
     rows.add("Eq. (2) with Table 1, " + record.name + " at " +
                  rounded_text(unit::mm.from_si(one.indentation), 3) +
                  " mm: " + rounded_text(one.equation, 4) + " N",
-             rounded_text(one.force, 4) + " N", agrees(std::abs(off) < digits),
-             std::abs(off) < digits
+             rounded_text(one.force, 4) + " N", agrees(std::abs(off) < rounding),
+             std::abs(off) < rounding
                  ? "the run computes eq. (2)"
                  : "another law than eq. (2) ran here: " + finding_word(record, "model"));
   }

@@ -417,9 +417,9 @@ SceneFrame scene_frame(const ScenePicture& picture) {
     const Vec3 direction = picture.axes.col(axis);
     const double seen_length = std::hypot(direction.dot(view.right), direction.dot(view.up));
     constexpr double apart = 0.04;  // of the size
-    if (const double least = apart * unit::mm.from_si(size) / seen_length; step < least) {
-      step = std::pow(10.0, std::floor(std::log10(least)));
-      step *= least <= 2.0 * step ? 2.0 : least <= 5.0 * step ? 5.0 : 10.0;
+    if (const double shortest = apart * unit::mm.from_si(size) / seen_length; step < shortest) {
+      step = std::pow(10.0, std::floor(std::log10(shortest)));
+      step *= shortest <= 2.0 * step ? 2.0 : shortest <= 5.0 * step ? 5.0 : 10.0;
     }
     const auto at = [&](double along, double away) -> Vec3 {
       Vec3 place = start + away * size * outwards;
