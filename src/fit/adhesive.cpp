@@ -21,7 +21,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double low_tabor = 0.1;   // DMT below, JKR above the other: Johnson and Greenwood 1997,
 constexpr double high_tabor = 5.0;  // J. Colloid Interface Sci. 192, their map
-const Unit mJ_per_m2{"mJ/m^2", "work of adhesion", {1, 1e3, {0, 1, -2}}};
+const Unit adhesion_unit{"mJ/m^2", "work of adhesion", {1, 1e3, {0, 1, -2}}};
 
 // x = a / a_c >= 1 of JKR: x^2 - 4 sqrt(x) = d, h = d a_c^2 / R, a_c^3 = pi w R^2 / (8 E*). The
 // left side is convex, and Newton's steps from the right of the root do not pass it.
@@ -118,11 +118,11 @@ class AdhesiveFit {
     };
     const Minimum minimum = minimise(curve_.force, at, start, {.max_iterations = 400});
     const double share = 1.0 - test_.poisson_ratio * test_.poisson_ratio;
-    std::vector<double> scale{unit::kPa.from_si(guess[0] * share), mJ_per_m2.from_si(guess[1]),
+    std::vector<double> scale{unit::kPa.from_si(guess[0] * share), adhesion_unit.from_si(guess[1]),
                               unit::mm.from_si(range), scale_, scale_ / unit::mm.from_si(range)};
     scale.resize(count);
     fit_.parameters = {{.name = "E", .unit = "kPa"},
-                       {.name = "w", .unit = mJ_per_m2.symbol},
+                       {.name = "w", .unit = adhesion_unit.symbol},
                        {.name = "h_0", .unit = "mm"},
                        {.name = "F_0", .unit = "N"},
                        {.name = "tilt", .unit = "N/mm"}};

@@ -416,7 +416,7 @@ fs::path example_folder() {
   const fs::path top = program.parent_path().parent_path();
   const fs::path installed = top / "share/palpate/scenarios";
   // A program that was built in a checkout takes those of the checkout.
-  const fs::path own = top.parent_path() / "scenarios";
+  fs::path own = top.parent_path() / "scenarios";
   if (!fs::exists(installed, error) && fs::exists(own / "quickstart.toml", error)) return own;
   return error ? fs::path() : installed;
 }
