@@ -2,7 +2,6 @@
 // by Chebyshev polynomials.
 #include "contact/layer.h"
 
-#include <math.h>  // j0, j1: POSIX
 #include <Eigen/Core>
 #include <algorithm>
 #include <cassert>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numerics.h"
 #include "base/text.h"
 #include "mechanics/pressed_mesh.h"
 #include "run/size_effect.h"
@@ -50,12 +51,11 @@ double neo_hookean_stress(double strain) {
 }
 
 double neo_hookean_strain(double stress_over_modulus) {
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (neo_hookean_stress(middle) < stress_over_modulus ? low : high) = middle;
-  }
-  return low;
+  const auto too_much = [&](double strain) {
+    return neo_hookean_stress(strain) - stress_over_modulus;
+  };
+  constexpr double flat = 1.0 - 1e-6;  // of a specimen that is pressed to nothing
+  return numerics::root({0.0, flat}, too_much).middle();
 }
 
 class Words {

@@ -225,7 +225,6 @@ TEST(Explain, OfAStepToAForceSaysWhatItPassed) {
   EXPECT_EQ(fine.find("a step to"), std::string::npos) << fine;
 }
 
-// Every heading with a table, every key and every word that a table of the manual begins with.
 // With `one_way` every model has the force of a half-space, however thin the tissue.
 TEST(Explain, SaysThatTheCouplingKeepsModelsAway) {
   const TemporaryFolder folder;
