@@ -443,20 +443,26 @@ double finger_share_on_body(const Scene& scene) {
     const double stiffer = 1.0 + found.size / (1.0 - share);
     return stiffer > 0.0 ? share * stiffer / (1.0 - share + share * stiffer) : share;
   }
-  // The force of tissue that is `softness` times as compliant, over that of a rigid half-space. The
-  // ball of a finger that `solid` computes is stiffer than its half-space.
-  const double ball = scenario::traits(scenario.solver.model).solid ? found.ball : 0.0;
+  // The force of tissue that is `softness` times as compliant, over that of a rigid half-space.
   const auto force = [&](double softness) {
     const double compliance = share + softness * (1.0 - share);
     const contact::Layer layer = layers_of(scenario, softness * (1.0 - share) / compliance);
     const contact::LayerResolution resolution =
         contact::layer_resolution(2.0 * found.chi / layer.top(), layer.top());
-    return share / compliance * (1.0 + ball / compliance) *
-           contact::LayerEquation(layer, resolution).force_factor(found.chi);
+    return share / compliance * contact::LayerEquation(layer, resolution).force_factor(found.chi);
   };
   const double at_once =
       scenario.tissue.law.time > 0.0 ? 0.0 : 1.0 / scenario.tissue.law.instantaneous_ratio();
-  return 1.0 - (1.0 - force(1.0) / force(at_once)) / (1.0 - at_once);
+  const auto share_by = [&](double ratio) {  // of the forces at once and at rest
+    return std::clamp(1.0 - (1.0 - 1.0 / ratio) / (1.0 - at_once), 0.0, 1.0);  // but for rounding
+  };
+  const double ratio = force(at_once) / force(1.0);
+  if (!scenario::traits(scenario.solver.model).solid) return share_by(ratio);
+  // The ball of the finger, which `solid` computes, is stiffer than a half-space.    [ball]
+  const double at_rest = share_by(ratio);
+  const double then = at_rest / (at_rest + (1.0 - at_rest) * at_once);
+  const double ball = found.ball / share;
+  return share_by(ratio * (1.0 + ball * then) / (1.0 + ball * at_rest));
 }
 
 }  // namespace

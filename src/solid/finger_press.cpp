@@ -552,10 +552,23 @@ Pairs FingerPress::of_tissue(double Moment::*value) const {
   Pairs found;
   const Point& first = tissue_.points.front();
   if (order_.smooth) {
-    const double changed = first.moment.*value / (by_hertz(first.travel).*value);
-    for (const double part : {1.0 / 16.0, 1.0 / 4.0})
-      found.emplace_back(part * first.travel,
-                         by_hertz(part * first.travel).*value * std::pow(changed, std::sqrt(part)));
+    // The depth at which Hertz's contact has the force of the first point.
+    const double depth =
+        first.travel * std::pow(first.moment.force / by_hertz(first.travel).force, 2.0 / 3.0);
+    const double other = first.moment.*value / (by_hertz(depth).*value);
+    for (const double part : {1.0 / 16.0, 1.0 / 4.0}) {
+      const double travel = part * first.travel;
+      // A body that yields is a spring behind the contact.
+      const double at =
+          depth < first.travel
+              ? root(travel,
+                     [&](double trial) {
+                       return trial + (first.travel - depth) * std::pow(trial / depth, 1.5) <
+                              travel;
+                     })
+              : travel * std::pow(depth / first.travel, std::sqrt(part));
+      found.emplace_back(travel, by_hertz(at).*value * std::pow(other, std::sqrt(part)));
+    }
   }
   for (const Point& point : tissue_.points) found.emplace_back(point.travel, point.moment.*value);
   return found;

@@ -233,6 +233,53 @@ TEST(Contacts, AnElasticFingerOnAThinLayerThatDoesNotRelaxIsElastic) {
               alone, 5e-3 * alone);
 }
 
+// Of a body whose layers are not known its measured size says how much of the compliance it has.
+TEST(Contacts, AnElasticFingerOnAThinDiscThatDoesNotRelaxIsNearlyElastic) {
+  const auto force = [](const std::string& tissue) {
+    return test::run_text(
+               "[tissue]\npoisson_ratio = 0.45\nshape = { kind = \"disc\", radius = \"40 mm\", "
+               "height = \"5 mm\" }\n" +
+               tissue +
+               "[finger]\npoisson_ratio = 0.45\nradius = \"8 mm\"\nyoung_modulus = \"100 "
+               "kPa\"\n[solver]\nmodel = \"coupled_springs\"\n[[step]]\nto = \"1 mm\"\nrate = "
+               "\"2.5 mm/s\"\n[output]\ninterval = \"50 ms\"\npressure_maps = false\n")
+        .contact.back()
+        .contact_force;
+  };
+  const double at_once = force("young_modulus = \"50 kPa\"\nviscosity = \"none\"\n");
+  const double found = force(
+      "young_modulus = \"10 kPa\"\nviscosity = \"standard_linear_solid\"\nrelaxation_time = "
+      "\"1e5 s\"\ninstantaneous_ratio = 5\n");
+  EXPECT_NEAR(found, at_once, 0.06 * at_once) << found / at_once;
+}
+
+// A finger that hardly yields on a skin that bends: its part of the compliance is lost in rounding.
+TEST(Contacts, TissueRelaxesBehindAnAlmostRigidFinger) {
+  const auto force = [](const std::string& viscosity, const std::string& scale,
+                        const std::string& finger) {
+    return test::run_text(
+               "[tissue]\nyoung_modulus = \"" + scale + "00 kPa\"\npoisson_ratio = 0.42\n" +
+               viscosity +
+               "shape = { size = [\"90 mm\", \"90 mm\", \"15.5 mm\"] }\n[[region]]\nkind = "
+               "\"slab\"\nbottom = \"0 mm\"\ntop = \"15 mm\"\nyoung_modulus = \"" +
+               scale +
+               " kPa\"\npoisson_ratio = 0.45\n[finger]\nradius = \"7 mm\"\nyoung_modulus = \"" +
+               finger +
+               " kPa\"\n[solver]\nmodel = \"layer\"\n[[step]]\nto = \"0.6 mm\"\nrate = \"3 "
+               "mm/s\"\n[output]\ninterval = \"50 ms\"\npressure_maps = false\n")
+        .contact.back()
+        .contact_force;
+  };
+  for (const char* finger : {"2050", "1e13"}) {
+    const double at_once = force("viscosity = \"none\"\n", "12", finger);
+    EXPECT_NEAR(force("viscosity = \"standard_linear_solid\"\nrelaxation_time = \"1e5 s\"\n"
+                      "instantaneous_ratio = 3\n",
+                      "4", finger),
+                at_once, 2e-3 * at_once)
+        << finger;
+  }
+}
+
 TEST(EightSpheres, PressAFlatLikeTheOneTheyReplace) {
   for (const std::string& coupling : couplings) {
     const std::string coupled = "contact.coupling=" + coupling;

@@ -202,5 +202,27 @@ rate = "1 mm/s"
   }
 }
 
+// A skin that bends on a soft base: small contacts are those of a spring behind Hertz's contact on
+// the skin, which is fifty times as stiff. (They had a bump, 3.7 times as high.) The exact stack is
+// linear; the curve is that of large strains where it begins, 6 % above.
+TEST(Solid, SmallContactsOnASkinThatBendsAreThoseOfTheStack) {
+  const auto rows = [](const char* model) {
+    return test::run_text(
+               "[tissue]\nyoung_modulus = \"600 kPa\"\npoisson_ratio = 0.42\nviscosity = \"none\"\n"
+               "shape = { size = [\"90 mm\", \"90 mm\", \"15.5 mm\"] }\n[[region]]\nkind = "
+               "\"slab\"\nbottom = \"0 mm\"\ntop = \"15 mm\"\nyoung_modulus = \"4 kPa\"\n"
+               "poisson_ratio = 0.45\n[finger]\nradius = \"7 mm\"\n[[step]]\nto = \"0.6 mm\"\n"
+               "rate = \"3 mm/s\"\n[output]\ninterval = \"5 ms\"\npressure_maps = false\n",
+               {std::string("solver.model=") + model})
+        .contact;
+  };
+  const auto solid = rows("solid");
+  const auto stack = rows("layer");
+  ASSERT_EQ(solid.size(), stack.size());
+  for (std::size_t i = 1; i <= 10; ++i)  // to a quarter of the displacement
+    EXPECT_NEAR(solid[i].contact_force, stack[i].contact_force, 0.1 * stack[i].contact_force)
+        << solid[i].travel;
+}
+
 }  // namespace
 }  // namespace palpate

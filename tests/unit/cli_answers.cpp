@@ -225,6 +225,25 @@ TEST(Explain, OfAStepToAForceSaysWhatItPassed) {
   EXPECT_EQ(fine.find("a step to"), std::string::npos) << fine;
 }
 
+// The law of several layers ends at 12 times the top one, here at a radius of 1.2 mm.
+TEST(Explain, LeavesALayerWhoseLawIsTooShort) {
+  const TemporaryFolder folder;
+  const auto models = [&](const char* depth) {
+    write_file(folder / "skin.toml",
+               "[tissue]\nyoung_modulus = \"1000 kPa\"\npoisson_ratio = 0.45\nviscosity = "
+               "\"none\"\nshape = { size = [\"60 mm\", \"60 mm\", \"10.1 mm\"] }\n[[region]]\n"
+               "kind = \"slab\"\nbottom = \"0 mm\"\ntop = \"10 mm\"\nyoung_modulus = \"5 "
+               "kPa\"\npoisson_ratio = 0.45\n[finger]\nmaterial = \"rigid\"\nradius = \"6 mm\"\n"
+               "[[step]]\nto = \"" +
+                   std::string(depth) + "\"\n");
+    return palpate(folder.path(), {"explain", "skin.toml"}).out;
+  };
+  EXPECT_EQ(models("0.2 mm").find("wider than its law"), std::string::npos);
+  EXPECT_NE(models("0.4 mm").find("layer does not apply: the contact is wider than its law is "
+                                  "known for"),
+            std::string::npos);
+}
+
 // With `one_way` every model has the force of a half-space, however thin the tissue.
 TEST(Explain, SaysThatTheCouplingKeepsModelsAway) {
   const TemporaryFolder folder;

@@ -88,6 +88,18 @@ TEST(LayerStack, StiffSkinsFollowTheEquation) {
   EXPECT_NEAR(contact.force(0.2e-3), 2.18e-3, 0.005e-3);
 }
 
+// A long rule is made of pieces.
+TEST(LayerStack, ALongSumOverWavesIsThatOfAShortOne) {
+  const Layer layer = surface_on(0.1);
+  const auto sum = [&](int count) {
+    double all = 0.0;
+    for (const LayerWave& wave : layer_waves(layer, count))
+      all += wave.missing * std::cos(0.7 * wave.number);
+    return all;
+  };
+  EXPECT_NEAR(sum(9000) / sum(2000), 1.0, 1e-9);
+}
+
 // 1e-5, as the header says.
 TEST(LayerStack, TheLawFollowsTheEquation) {
   for (const Layer& layer :

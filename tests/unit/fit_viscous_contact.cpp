@@ -83,6 +83,13 @@ TEST(ViscousContact, PowerLawOnTheApproach) {
   EXPECT_NEAR(fit.parameters[2].estimate, 2e-4, 1e-6);  // mm
 }
 
+TEST(ViscousContact, AFingerThatTurnsBackHasNoHold) {
+  const Press press = power_law(800, 0.0, 0);
+  const Fit fit =
+      fit_viscous(press.time, press.depth, press.force, {.radius = probe}, Viscous::power_law);
+  EXPECT_EQ(fit.excluded, 400);
+}
+
 TEST(ViscousContact, TingsWayBack) {
   const Press press = power_law(800, 0.0, 0);
   const Fit fit = fit_viscous(press.time, press.depth, press.force,
