@@ -148,7 +148,8 @@ solid::FingerOrder SolidPress::order(double elements) const {
   if (scenario.finger.elastic) {
     const auto& [modulus, ratio] = *scenario.finger.elastic;
     order.ball = tissue::Isotropic{modulus, std::min(ratio, scene::most_poisson_ratio)};
-    order.share = 1.0 - finger.compliance_share;
+    constexpr double least = 0.02;
+    order.share = std::clamp(1.0 - scene::finger_share_on_body(*scene_), least, 1.0 - least);
   }
   order.deepest = deepest_;
   order.in_steps = in_steps_;
@@ -183,8 +184,10 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
     return std::nullopt;
   };
   try {
-    for (const auto& press : presses_)
+    for (const auto& press : presses_) {
+      if (press != presses_.front()) press->take_share(presses_.front()->settled_share());
       if (auto wrong = take(*press)) return wrong;
+    }
   } catch (const MeshError&) {  // at a place of a slide
     if (!simpler()) throw;
     make();
@@ -203,6 +206,7 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   }
   error_ *= std::max(1.0, solid::most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
+  error_ += now_.excess;  // the share is that of the deepest travel
   touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();
   if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();
   touch.contacts.resize(now_.force > 0.0 ? 1 : 0);

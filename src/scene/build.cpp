@@ -428,11 +428,6 @@ contact::Relaxation relaxation_of(const tissue::ViscousLaw& law) {
   return relaxation;
 }
 
-namespace {
-
-// The finger's part of the compliance behind which the tissue relaxes: a thin layer or a body that
-// is stiffer than a half-space has less of it than their half-spaces have. At once and at rest the
-// modulus is then that of the elastic forces.                          docs/theory.md [relaxation]
 double finger_share_on_body(const Scene& scene) {
   const double share = scene.finger.compliance_share;
   const Estimates& found = scene.choice.expected;
@@ -451,8 +446,8 @@ double finger_share_on_body(const Scene& scene) {
         contact::layer_resolution(2.0 * found.chi / layer.top(), layer.top());
     return share / compliance * contact::LayerEquation(layer, resolution).force_factor(found.chi);
   };
-  const double at_once =
-      scenario.tissue.law.time > 0.0 ? 0.0 : 1.0 / scenario.tissue.law.instantaneous_ratio();
+  const tissue::ViscousLaw& law = scenario.tissue.law;
+  const double at_once = law.branches.empty() ? 0.0 : 1.0 / law.instantaneous_ratio();
   const auto share_by = [&](double ratio) {  // of the forces at once and at rest
     return std::clamp(1.0 - (1.0 - 1.0 / ratio) / (1.0 - at_once), 0.0, 1.0);  // but for rounding
   };
@@ -464,8 +459,6 @@ double finger_share_on_body(const Scene& scene) {
   const double ball = found.ball / share;
   return share_by(ratio * (1.0 + ball * then) / (1.0 + ball * at_rest));
 }
-
-}  // namespace
 
 contact::Relaxation contact_relaxation(const Scene& scene) {
   const scenario::Resolved& scenario = scene.scenario;

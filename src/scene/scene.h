@@ -220,6 +220,10 @@ struct Scene {
                                                 const scenario::Resolved& scenario,
                                                 const SurfaceTouch& touch);
 
+// The finger's part of the compliance, behind which the tissue relaxes: a thin layer or a body that
+// is stiffer than a half-space has less of it than their half-spaces have. At once and at rest the
+// modulus is then that of the elastic forces.                          docs/theory.md [relaxation]
+[[nodiscard]] double finger_share_on_body(const Scene& scene);
 // The relaxation of the contact's modulus: the tissue's behind an elastic finger [relaxation];
 // empty (elastic) if the contact does not include viscosity.
 // A tissue's law as that of its modulus.

@@ -265,7 +265,12 @@ bool mirrored(std::span<const Vec3> points, int axis, double near) {
 
 }  // namespace
 
-FingerPress::FingerPress(FingerOrder order) : order_(std::move(order)) {
+FingerPress::FingerPress(FingerOrder order)
+    : order_(std::move(order)), settled_(!order_.ball.has_value()) {
+  make();
+}
+
+void FingerPress::make() {
   BodyOrder body = order_.body;
   body.radius = order_.radius / order_.share;
   body.travel = order_.deepest * order_.share;
@@ -289,7 +294,61 @@ FingerPress::FingerPress(FingerOrder order) : order_(std::move(order)) {
   for (const Vec3& centre : order_.centres)
     finger.push_back(Indenter::sphere(centre, order_.radius, order_.share));
   press_->set_finger(std::move(finger));
+  ball_press_.reset();
+  ball_ = {};
+  knots_.clear();
+  has_knots_ = false;
   begin(order_.in_steps);
+}
+
+double FingerPress::wider(double travel) {
+  const double own = tissue_travel(travel);
+  if (tissue_.points.empty() || ball_.points.empty()) return 1.0;
+  Pairs ball;
+  for (const Point& point : ball_.points)
+    ball.emplace_back(point.travel / upright(), point.moment.spread);
+  return between(of_tissue(&Moment::spread), own, 0.5) / between(ball, travel - own, 0.5);
+}
+
+double FingerPress::excess(double ratio) const {
+  return 1.5 * order_.share * (1.0 - order_.share) * std::pow(std::log(ratio), 2);
+}
+
+// Half-spaces would take the cube, which overshoots on a body whose curvature matters less.
+double FingerPress::better_share(double ratio) const {
+  const double odds = order_.share / (1.0 - order_.share) * ratio * ratio;
+  return odds / (1.0 + odds);
+}
+
+double FingerPress::settled_share() {
+  constexpr double enough = 0.01;
+  constexpr int most_times = 5;
+  double before = order_.share;
+  double farthest = 0.0;
+  for (int times = 0; !settled_ && order_.deepest > 0.0 && times < most_times; ++times) {
+    (void)tissue_travel(order_.deepest);
+    const double end = std::min(order_.deepest, found_to());
+    if (end < farthest) {  // tissue that folds sooner under a flatter surface
+      order_.share = before;
+      make();
+      break;
+    }
+    const double ratio = wider(end);
+    if (excess(ratio) <= enough) break;
+    before = order_.share;
+    farthest = end;
+    order_.share = better_share(ratio);
+    make();
+  }
+  settled_ = true;
+  return order_.share;
+}
+
+void FingerPress::take_share(double share) {
+  settled_ = true;
+  if (share == order_.share) return;
+  order_.share = share;
+  make();
 }
 
 void FingerPress::begin(bool in_steps) {
@@ -303,10 +362,12 @@ FingerPress* FingerPress::at(const Vec3& place) {
   if (place == Vec3::Zero()) return this;
   if (place_ == place) return beside_.get();
   place_ = place;
+  const double share = beside_ ? beside_->order_.share : order_.share;
   beside_.reset();
   const auto touch = order_.beside(place);
   if (!touch) return nullptr;
   FingerOrder there = order_;
+  there.share = share;
   there.deepest += touch->finger.z() - order_.touch.finger.z();
   there.touch = *touch;
   if (there.deepest > 0.0) beside_ = std::make_unique<FingerPress>(std::move(there));
@@ -355,7 +416,7 @@ void FingerPress::press_ball(double force) {
     constexpr double least = 0.1;
     const double travel = std::max(next - found->lost, least * next);
     if (found->normal() > 0.0 && (ball_.points.empty() || travel > ball_.points.back().travel))
-      ball_.points.push_back({travel, found->normal(), {}});
+      ball_.points.push_back({travel, found->normal(), moment_of(*found, found->normal())});
   }
 }
 
@@ -414,7 +475,8 @@ FingerPress::OuterSurface FingerPress::surface_at(double travel, const Vec3& pla
 }
 
 Moment FingerPress::moment_of(const Answer& answer, double force) {
-  return {force, std::sqrt(answer.area / std::numbers::pi), answer.peak, answer.touching};
+  return {force, std::sqrt(answer.area / std::numbers::pi), answer.peak, answer.touching,
+          answer.spread};
 }
 
 std::optional<Answer> FingerPress::go(double travel) {
@@ -543,7 +605,7 @@ Moment FingerPress::by_hertz(double travel) const {
   const double force =
       hertz::force(travel, radius, hertz::effective_modulus(0.0, elastic.compliance()));
   const double a = hertz::contact_radius(travel, radius);
-  return {force, a, hertz::peak_pressure(force, a), 1};
+  return {force, a, hertz::peak_pressure(force, a), 1, std::sqrt(0.4) * a};
 }
 
 // A quantity over the tissue's travel. The elements are too large for a contact much smaller than
@@ -633,6 +695,55 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
     return found;
   }
   if (!(travel > 0.0)) return Moment{};
+  (void)settled_share();
+  auto found = on_curve(travel);
+  if (!found || !order_.ball || order_.shallower) return found;
+  if (!has_knots_) find_knots();
+  if (knots_.empty()) return found;
+  const Knot& first = knots_.front();
+  if (travel <= first.travel) return first.press->on_curve(travel);
+  // Factors between the knots, and 1 at the deepest travel.
+  auto next = std::find_if(knots_.begin(), knots_.end(),
+                           [&](const Knot& knot) { return knot.travel >= travel; });
+  const Knot& before = *std::prev(next);
+  const double end = next == knots_.end() ? order_.deepest : next->travel;
+  const double part =
+      std::min(1.0, std::log(travel / before.travel) / std::log(end / before.travel));
+  const auto correct = [&](double Moment::*value) {
+    const double last = next == knots_.end() ? 1.0 : next->factor.*value;
+    const double factor = std::pow(before.factor.*value, 1.0 - part) * std::pow(last, part);
+    (*found).*value *= factor;
+    return factor;
+  };
+  found->excess = std::max(0.0, found->excess - std::abs(1.0 - correct(&Moment::force)));
+  (void)correct(&Moment::contact_radius);
+  (void)correct(&Moment::peak_pressure);
+  return found;
+}
+
+// Where the share of the deepest travel is not that of a smaller one.
+void FingerPress::find_knots() {
+  has_knots_ = true;
+  constexpr double enough = 0.02;
+  for (const double part : {0.25, 0.5}) {
+    const double travel = part * order_.deepest;
+    const auto own = on_curve(travel);
+    if (!own || own->excess <= enough) continue;
+    FingerOrder order = order_;
+    order.deepest = travel;
+    order.share = better_share(wider(travel));
+    order.shallower = true;
+    Knot knot{travel, std::make_unique<FingerPress>(std::move(order)), {}};
+    const auto best = knot.press->at_travel(travel);
+    if (!best || !(best->force > 0.0)) continue;
+    for (double Moment::*const value :
+         {&Moment::force, &Moment::contact_radius, &Moment::peak_pressure})
+      knot.factor.*value = (*best).*value / (*own).*value;
+    knots_.push_back(std::move(knot));
+  }
+}
+
+std::optional<Moment> FingerPress::on_curve(double travel) {
   const double own = tissue_travel(travel);
   if ((tissue_.end != End::open && own > tissue_.reached) ||
       (ball_.end != End::open && (travel - own) * upright() > ball_.reached)) {
@@ -646,8 +757,10 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
   const auto now = [&](double Moment::*value, double power) {
     return between(of_tissue(value), own, power);
   };
-  return Moment{now(&Moment::force, 1.5), now(&Moment::contact_radius, 0.5),
-                now(&Moment::peak_pressure, 0.5), near.moment.touching};
+  Moment found{now(&Moment::force, 1.5), now(&Moment::contact_radius, 0.5),
+               now(&Moment::peak_pressure, 0.5), near.moment.touching};
+  if (order_.ball) found.excess = excess(wider(travel));
+  return found;
 }
 
 std::optional<Moment> FingerPress::at_slide(double travel, const Vec3& start, const Vec3& end,

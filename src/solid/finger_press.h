@@ -64,12 +64,13 @@ struct FingerOrder {
   std::vector<Vec3> centres{Vec3::Zero()};     // m, of the spheres, from the finger's point
   double radius = 0.0;                         // m, of each
   std::optional<tissue::Isotropic> ball = {};  // an elastic finger's; of one sphere
-  double share = 1.0;    // of the tissue in the compliance of the contact; 1 if the finger is rigid
+  double share = 1.0;    // a first guess of the tissue's share of the gap; 1 if the finger is rigid
   double deepest = 0.0;  // m, travel of the finger
   Touch touch;
   std::array<double, 2> curvatures{};  // 1/m, of the body there along x and y, above 0 if convex
-  bool smooth = false;    // whether these are known, and a small contact of one sphere is Hertz's
-  bool in_steps = false;  // many points, as the wall under the finger may buckle between three
+  bool smooth = false;     // whether these are known, and a small contact of one sphere is Hertz's
+  bool shallower = false;  // the press is a knot of a deeper one
+  bool in_steps = false;   // many points, as the wall under the finger may buckle between three
   // The touch with the finger at a place beside it (m); nothing where it passes beside the body.
   std::function<std::optional<Touch>(const Vec3& place)> beside = {};
   std::string part = {};  // of a longer way, for the progress of the run
@@ -84,6 +85,8 @@ struct Moment {
   double contact_radius = 0.0;  // m, of the circle with the area of the contact
   double peak_pressure = 0.0;   // Pa
   int touching = 0;             // spheres in contact
+  double spread = 0.0;          // m, root mean square distance of the pressure from the pole
+  double excess = 0.0;  // a fraction of the force, what the share of an elastic finger's gap adds
 };
 
 // Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
@@ -92,7 +95,8 @@ struct Moment {
 // Below the first point the contact becomes Hertz's on the tissue at the surface.
 // An elastic finger is a ball of its own radius: each body takes its share of the curvature of the
 // gap between them, ball and tissue are pressed by the rigid surface between their shares, and
-// their travels at equal forces add.
+// their travels at equal forces add. Of all shares those have the least energy, and so the force,
+// with which the pressures on both are equally wide.
 //                                                                        docs/theory.md
 //                                                                        [solid_force]
 class FingerPress {
@@ -109,6 +113,10 @@ class FingerPress {
   [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  // The tissue's share of the gap, which is found by some presses to the deepest travel. The
+  // order's if the finger is rigid. Throws MeshError, Stopped.
+  [[nodiscard]] double settled_share();
+  void take_share(double share);  // of another mesh. Throws MeshError.
   // Whether a wall gives way, as far as the curve has been found, so that it has sixteen points.
   [[nodiscard]] bool buckles() const { return in_steps_ && !(order_.in_steps && is_power_law()); }
   // The displacements (m) between which the force falls first, as far as the curve has been found:
@@ -161,24 +169,43 @@ class FingerPress {
   [[nodiscard]] double higher(const FingerPress& there) const {
     return there.order_.touch.finger.z() - order_.touch.finger.z();
   }
+  void make();  // the presses, for the order at hand
   void begin(bool in_steps);
   void press_ball(double force);
   [[nodiscard]] double upright() const;
   // The tissue's part of a travel with which both bodies have one force. Forces of one point go on
   // with `power`.
   [[nodiscard]] double tissue_travel(double travel);
+  // The force at a travel by the share at hand.
+  [[nodiscard]] std::optional<Moment> on_curve(double travel);
+  // The share of the deepest travel may not be that of smaller ones: presses to a quarter and half
+  // of it with their own, whose values over those of the curve at hand are kept.
+  struct Knot {
+    double travel = 0.0;  // m
+    std::unique_ptr<FingerPress> press;
+    Moment factor;
+  };
+  void find_knots();
+  // The width of the pressure on the tissue over that on the ball at a travel.
+  [[nodiscard]] double wider(double travel);
+  // What the share of the gap adds to the force of two half-spaces whose pressures differ so.
+  [[nodiscard]] double excess(double ratio) const;
+  [[nodiscard]] double better_share(double ratio) const;
   [[nodiscard]] static double shared(const Pairs& tissue, const Pairs& balls, double travel,
                                      double power);
   // The force at one travel alone, with the exponent of the force there.
   [[nodiscard]] std::optional<Moment> once(double travel, double power);
 
   FingerOrder order_;
+  bool settled_ = false;        // its share
   Vec3 mirror_ = Vec3::Zero();  // m, a point of the planes of symmetry
   std::unique_ptr<Press> press_;
   Curve tissue_;
   bool in_steps_ = false;
   std::unique_ptr<Press> ball_press_;  // of an elastic finger
   Curve ball_;
+  std::vector<Knot> knots_;
+  bool has_knots_ = false;
   Vec3 place_ = Vec3::Zero();  // m, of the last press beside the touch
   std::unique_ptr<FingerPress> beside_;
   std::string reason_;

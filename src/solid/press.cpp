@@ -176,6 +176,8 @@ void Contact::add(const Vector& displacement, std::span<const Indenter> indenter
              own.force += area * pressure * here.push;
              own.work += area * pressure * here.depth;
              own.area += area;
+             own.moment +=
+                 area * pressure * (face.places[q] - indenters[i].pole).head<2>().squaredNorm();
              const std::array<double, 6>& n = rule()[q].values;
              for (std::size_t a = 0; a < 6; ++a)
                force.segment<3>(3 * face.nodes[a]) -= n[a] * area * pressure * here.push;
@@ -418,17 +420,22 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     contact_.add(u, indenters, none, force, stiffness_, met);
     Answer answer;
     double work = 0.0;
+    double moment = 0.0;
     for (std::size_t k = 0; k < met.size(); ++k) {
       const Met& one = met[k];
       answer.forces.push_back(-body_.copies * one.force.z());
       answer.force -= body_.copies * one.force;
       work += body_.copies * one.work;
+      moment += body_.copies * one.moment;
       answer.area += body_.copies * one.area;
       if (one.area > 0.0) answer.touching += images_of(indenters_[k].pole);
     }
     for (int axis = 0; axis < 2; ++axis)
       if (body_.mirrored[as_index(axis)]) answer.force[axis] = 0.0;
-    if (answer.normal() > 0.0) answer.lost = work / answer.normal();
+    if (answer.normal() > 0.0) {
+      answer.lost = work / answer.normal();
+      answer.spread = std::sqrt(moment / answer.normal());
+    }
     for (const Vec3& traction : contact_.tractions(u, indenters))
       answer.peak = std::max(answer.peak, traction.norm());
     before_ = std::move(now_);

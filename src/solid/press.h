@@ -47,6 +47,7 @@ struct Met {
   Vec3 force = Vec3::Zero();  // N, on the body
   double work = 0.0;          // N m, sum of the forces at the points times their overlap
   double area = 0.0;          // m^2, undeformed, of the points in contact
+  double moment = 0.0;        // N m^2, sum of the forces times their squared distance from the pole
 };
 
 // A penalty pushes every integration point of a face (seven, exact to degree five) out of an
@@ -127,6 +128,7 @@ struct Answer {
   Vec3 force = Vec3::Zero();   // N, on the finger; sideways parts that mirrors cancel are excluded
   double lost = 0.0;           // m, depth that the penalty lets through, mean weighted by pressure
   double area = 0.0;           // m^2, in contact
+  double spread = 0.0;         // m, root mean square distance of the pressure from the pole
   double peak = 0.0;           // Pa, the largest of Contact::tractions(), on undeformed area
   int touching = 0;            // indenters in contact
 

@@ -64,7 +64,8 @@ TEST_P(SolidCases, AreWithinWhatOneMeshStates) {
   const record::CaseRecord record = run_case(GetParam());
   ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
   EXPECT_NEAR(record.contact.back().contact_force, wanted, 0.03 * wanted);
-  EXPECT_DOUBLE_EQ(test::found(record, "stated_error"), 0.03);
+  // An elastic finger adds what its share of the gap may.
+  EXPECT_NEAR(test::found(record, "stated_error"), 0.03, 0.0005);
 }
 
 // The witness is good to 0.2 %, and three meshes state at least 0.5 %.
@@ -222,6 +223,29 @@ TEST(Solid, SmallContactsOnASkinThatBendsAreThoseOfTheStack) {
   for (std::size_t i = 1; i <= 10; ++i)  // to a quarter of the displacement
     EXPECT_NEAR(solid[i].contact_force, stack[i].contact_force, 0.1 * stack[i].contact_force)
         << solid[i].travel;
+}
+
+// Fingers that are softer than a skin on a soft base: the exact stack is linear, large strains add
+// 3.5 % to the force of a rigid finger. (With the half-spaces' shares of the gap it was 14 and 9
+// %.)
+TEST(Solid, AnElasticFingerOnASkinThatBendsIsThatOfTheStack) {
+  const auto force = [](const char* model, const char* finger) {
+    return test::run_text(
+               "[tissue]\nyoung_modulus = \"600 kPa\"\npoisson_ratio = 0.45\nviscosity = \"none\"\n"
+               "shape = { size = [\"60 mm\", \"60 mm\", \"20 mm\"] }\n[[region]]\nkind = "
+               "\"slab\"\nbottom = \"0 mm\"\ntop = \"19.5 mm\"\nyoung_modulus = \"4 kPa\"\n"
+               "poisson_ratio = 0.45\n[finger]\nradius = \"8 mm\"\npoisson_ratio = 0.45\n"
+               "[[step]]\nto = \"0.1 mm\"\nrate = \"1 mm/s\"\n[output]\ninterval = \"50 ms\"\n"
+               "pressure_maps = false\n",
+               {std::string("solver.model=") + model,
+                std::string("finger.young_modulus=") + finger})
+        .contact.back()
+        .contact_force;
+  };
+  for (const char* finger : {"20 kPa", "100 kPa"}) {
+    const double stack = force("layer", finger);
+    EXPECT_NEAR(force("solid", finger), 1.035 * stack, 0.02 * stack) << finger;
+  }
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ FingerOrder thin_layer() {
 TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
   FingerOrder order = thin_layer();
   FingerPress folds(order);
-  EXPECT_FALSE(folds.at_travel(4e-3));
+  EXPECT_FALSE(folds.at_travel(8e-3));
   EXPECT_NE(folds.reason().find("no equilibrium beyond a displacement of 3.6"), std::string::npos)
       << folds.reason();
   order.deepest = 3e-3;
@@ -117,24 +117,24 @@ TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
   }
 }
 
-// So does one under an elastic finger, which yields by a tenth of Hertz's depth. The end that is
-// told is the finger's displacement, up to which there is a force.
+// So does one under an elastic finger, with the shares of a quarter, half and all of the way. The
+// end that is told is the finger's displacement, up to which there is a force.
 TEST(FingerPress, AnElasticFingerKeepsWhatItFoundToo) {
   FingerOrder order = thin_layer();
-  order.ball = tissue::Isotropic{90e3, 0.45};
-  order.share = 0.9;
-  order.deepest = 5e-3;
+  order.ball = tissue::Isotropic{400e3, 0.45};
+  order.share = 0.97;
+  order.deepest = 8e-3;
   FingerPress folds(order);
-  EXPECT_FALSE(folds.at_travel(5e-3));
+  EXPECT_FALSE(folds.at_travel(8e-3));
   const std::string beyond = "beyond a displacement of ";
   const std::size_t at = folds.reason().find(beyond);
   ASSERT_NE(at, std::string::npos) << folds.reason();
   const double end = 1e-3 * std::stod(folds.reason().substr(at + beyond.size()));
   EXPECT_TRUE(folds.at_travel(0.99 * end));
   EXPECT_FALSE(folds.at_travel(1.01 * end));
-  order.deepest = 4e-3;
+  order.deepest = 3.3e-3;
   FingerPress holds(order);
-  for (const double travel : {2e-3, 3e-3, 4e-3}) {
+  for (const double travel : {1.5e-3, 2.5e-3, 3.3e-3}) {
     const auto kept = folds.at_travel(travel);
     const auto found = holds.at_travel(travel);
     ASSERT_TRUE(kept && found) << end;
