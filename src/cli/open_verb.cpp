@@ -136,7 +136,7 @@ std::string index_of(const fs::path& folder, const std::vector<std::string>& rep
   const std::string count = count_text(reports.size(), "report");
   page.answer({count + "."});
   if (!items.empty()) page.section("Reports", page::element("div", items, {{"class", "cards"}}));
-  const std::string index = (folder / "index.html").string();
+  std::string index = (folder / "index.html").string();
   write_atomically(index, page.html());
   talk.say(index + ": " + count);
   return index;

@@ -251,9 +251,7 @@ class Chooser {
     if (scene::step_through(asked_, choice_.touch, choice_.expected) > 0)
       return;  // will be refused
     Estimates& e = choice_.expected;
-    // What free sides change fades with exp(-1.2 b/H) at least, the slowest of the fields in a
-    // layer that is held below and free above: 0.8 % of it is left at four thicknesses.
-    constexpr double far = 4.0;
+    constexpr double far = 4.0;  // of which exp(-1.2) leaves 0.8 %
     if (formula && scene::refines(asked_) && !each_presses(asked_) &&
         std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape) &&
         choice_.touch.to_edge >= far * choice_.touch.thickness) {
@@ -278,6 +276,7 @@ class Chooser {
       if (std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape)) {
         const bool layered = !asked_.regions.empty();
         e.sides = layered ? change : (1.0 + change) / (1.0 + e.thickness) - 1.0;
+        e.sides = std::clamp(e.sides, -most_by_sides(), most_by_sides());
         e.size = layered ? (1.0 + e.thickness) * (1.0 + change) - 1.0 : change;
       } else {
         e.size = change;
@@ -321,7 +320,18 @@ class Chooser {
     if (std::holds_alternative<scenario::HalfSpace>(asked_.tissue.shape)) return 0.0;
     if (!e.measured) return unknown;
     const double change = traits.of == Model::hertz ? e.size : e.sides;
-    return std::abs(1.0 / (1.0 + change) - 1.0) + e.size_error;
+    const double error = std::abs(1.0 / (1.0 + change) - 1.0) + e.size_error;
+    return traits.of == Model::hertz ? error : std::min(error, most_by_sides());
+  }
+
+  // What free sides change fades with exp(-1.2 b/H) at least, the slowest of the fields in a layer
+  // that is held below and free above. A coarse mesh may be farther off.
+  [[nodiscard]] double most_by_sides() const {
+    const scene::SurfaceTouch& touch = choice_.touch;
+    if (!std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape) || !asked_.regions.empty() ||
+        asked_.tissue.base != tissue::Base::bonded)
+      return unknown;
+    return std::exp(-1.2 * (touch.to_edge / touch.thickness - choice_.expected.chi));
   }
 
   // What the depth leaves open: the error of its factor, or the neglected effect. The factor

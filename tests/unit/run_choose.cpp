@@ -95,6 +95,18 @@ TEST(Choose, TheToleranceDecides) {
             "no model is expected to be within the tolerance of 0.1 %: `sol");
 }
 
+// On 60 x 60 x 8 mm `layer` and the solid have one force (0.0224 N); 140 nodes see 2.5 % by the
+// sides and state 5 % themselves.
+TEST(Choose, SidesChangeNoMoreThanTheirFieldReaches) {
+  const Choice found = choose(
+      read("[tissue]\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.45\nviscosity = \"none\"\n"
+           "shape = { size = [\"60 mm\", \"60 mm\", \"8 mm\"] }\n[finger]\nradius = \"8 mm\"\n"
+           "[[step]]\nto = \"0.5 mm\"\nrate = \"1 mm/s\"\n"));
+  EXPECT_LE(std::abs(found.expected.sides), std::exp(-1.2 * (30.0 / 8.0 - 0.25)) + 1e-9);
+  EXPECT_EQ(found.chosen.solver.model, Model::layer);
+  EXPECT_LT(found.forecast(Model::layer)->error, 0.03);
+}
+
 TEST(Choose, ARefinedMeshIsForecastByItsTolerance) {
   const std::string strap = "[tissue]\nshape = { kind = \"ligament\" }\n";
   const auto forecast = [&](const std::string& mesh, double tolerance) {
