@@ -251,10 +251,9 @@ class Chooser {
     if (scene::step_through(asked_, choice_.touch, choice_.expected) > 0)
       return;  // will be refused
     Estimates& e = choice_.expected;
-    constexpr double far = 4.0;  // of which exp(-1.2) leaves 0.8 %
     if (formula && scene::refines(asked_) && !each_presses(asked_) &&
         std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape) &&
-        choice_.touch.to_edge >= far * choice_.touch.thickness) {
+        choice_.touch.to_edge >= far_sides * choice_.touch.thickness) {
       e.measured = true;
       return;
     }
@@ -329,7 +328,8 @@ class Chooser {
   [[nodiscard]] double most_by_sides() const {
     const scene::SurfaceTouch& touch = choice_.touch;
     if (!std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape) || !asked_.regions.empty() ||
-        asked_.tissue.base != tissue::Base::bonded)
+        asked_.tissue.base != tissue::Base::bonded ||
+        touch.to_edge < 0.5 * far_sides * touch.thickness)
       return unknown;
     return std::exp(-1.2 * (touch.to_edge / touch.thickness - choice_.expected.chi));
   }
@@ -444,7 +444,8 @@ class Chooser {
     if (!choice_.given) model_ = choice_.otherwise.model;
   }
 
-  static constexpr double unknown = 1.0;  // the error where nothing is known
+  static constexpr double far_sides = 4.0;  // thicknesses, of which exp(-1.2) leaves 0.8 %
+  static constexpr double unknown = 1.0;    // the error where nothing is known
 
   const scenario::Case& case_;
   SpecimenShapes& shapes_;

@@ -90,6 +90,22 @@ double softest_thickness(const scenario::Resolved& scenario, const SurfaceTouch&
   return thickness;
 }
 
+// What the stretch of layers that bend on softer ones adds to the force at most, per depth, 1/m: a
+// plate on a half-space bends over a length that goes with the cubic root of their moduli's ratio.
+double stretch_bound(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+  constexpr double counted = 0.02;  // docs/accuracy.md
+  const contact::Layer layer = layers_of(scenario, 1.0);
+  double most = 0.0;
+  double softest = HUGE_VAL;
+  for (auto below = layer.below.rbegin(); below != layer.below.rend(); ++below) {
+    if (below->stiffness > softest)
+      most = std::max(most, std::cbrt(below->stiffness / softest) / below->thickness);
+    softest = std::min(softest, below->stiffness);
+  }
+  if (softest < 1.0) most = std::max(most, std::cbrt(1.0 / softest) / layer.top());
+  return counted * most / touch.thickness;
+}
+
 // Sets the effect of the depth: by the table on flat tissue of one kind whose edges are not near,
 // else bounded.
 void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
@@ -104,8 +120,10 @@ void press_deep(const scenario::Resolved& scenario, const SurfaceTouch& touch,
   double ratio = tissue.poisson_ratio;
   for (const auto& region : scenario.regions) ratio = std::min(ratio, region.poisson_ratio);
   const double radius = several ? make_finger(scenario).sphere_radius : law.radius;
-  const double bound = contact::depth_bound(found.tissue_share * found.travel, radius,
-                                            softest_thickness(scenario, touch), ratio);
+  const double travel = found.tissue_share * found.travel;
+  const double bound =
+      contact::depth_bound(travel, radius, softest_thickness(scenario, touch), ratio) +
+      stretch_bound(scenario, touch) * travel;
   found.deep_bound = bound;
   if (flat && !several && !several_tissues(scenario) && found.edge == 0.0) {
     const contact::Layer layer = layers_of(scenario, found.tissue_share);

@@ -263,6 +263,9 @@ bool mirrored(std::span<const Vec3> points, int axis, double near) {
   });
 }
 
+// What a share of the gap may add to the force before it is found anew.
+constexpr double enough_excess = 0.01;
+
 }  // namespace
 
 FingerPress::FingerPress(FingerOrder order)
@@ -321,7 +324,6 @@ double FingerPress::better_share(double ratio) const {
 }
 
 double FingerPress::settled_share() {
-  constexpr double enough = 0.01;
   constexpr int most_times = 5;
   double before = order_.share;
   double farthest = 0.0;
@@ -334,7 +336,7 @@ double FingerPress::settled_share() {
       break;
     }
     const double ratio = wider(end);
-    if (excess(ratio) <= enough) break;
+    if (excess(ratio) <= enough_excess) break;
     before = order_.share;
     farthest = end;
     order_.share = better_share(ratio);
@@ -724,11 +726,10 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
 // Where the share of the deepest travel is not that of a smaller one.
 void FingerPress::find_knots() {
   has_knots_ = true;
-  constexpr double enough = 0.02;
   for (const double part : {0.25, 0.5}) {
     const double travel = part * order_.deepest;
     const auto own = on_curve(travel);
-    if (!own || own->excess <= enough) continue;
+    if (!own || own->excess <= enough_excess) continue;
     FingerOrder order = order_;
     order.deepest = travel;
     order.share = better_share(wider(travel));
