@@ -139,7 +139,9 @@ class Chooser {
 
   // Questions for a test of a specimen between platens.
   void uniform() {
-    const double nu = asked_.tissue.poisson_ratio;
+    double nu = asked_.tissue.poisson_ratio;  // the farthest from that of independent springs
+    for (const auto& region : asked_.regions)
+      if (std::abs(region.poisson_ratio - 0.25) > std::abs(nu - 0.25)) nu = region.poisson_ratio;
     const bool bonded = asked_.tissue.base == tissue::Base::bonded ||
                         scenario::upper_platen(asked_) == tissue::Base::bonded;
     const auto& shape = asked_.tissue.shape;
@@ -152,7 +154,7 @@ class Chooser {
     const bool uneven = bonded || scene::several_tissues(asked_) || !prism;
     constexpr double even_error = 0.001;
     constexpr double shape_error = 0.4;
-    const double meshed = scene::bonded_mesh_error(asked_);
+    const double meshed = std::max(scene::bonded_mesh_error(asked_), parts_error());
     const double stiffening =
         scene::bonded_stiffening(asked_, nu) / scene::bonded_stiffening(asked_, 0.25);
     const double ratio_error =
@@ -177,6 +179,46 @@ class Chooser {
     for (const ModelTraits& traits : scenario::model_table)
       if (traits.uniform) add(traits, counted(ringing) + error_of_still(traits));
     take_cheapest();
+  }
+
+  // What a mesh misses of a specimen of several tissues between platens, by another with shorter or
+  // longer cells: stresses are singular where borders of tissues meet the free side, so that the
+  // error goes with the length of the cells, or more slowly.       docs/theory.md, below
+  // [compression]
+  [[nodiscard]] double parts_error() {
+    scenario::Resolved other = asked_;
+    scenario::Mesh& mesh = other.tissue.mesh;
+    if (!scene::several_tissues(asked_) || std::holds_alternative<scenario::MeshFile>(mesh))
+      return 0.0;
+    const double nodes = scene::expected_nodes(mesh);
+    const double finer = nodes < 300.0 ? 4.0 : nodes < 2000.0 ? 2.0 : 0.5;
+    const auto change = [&](std::array<int, 3>& cells) {
+      for (int& number : cells) number = std::max(1, static_cast<int>(finer * number));
+    };
+    if (auto* kuhn = std::get_if<scenario::Kuhn>(&mesh)) change(kuhn->cells);
+    if (auto* mirrored = std::get_if<scenario::Mirrored>(&mesh)) change(mirrored->cells);
+    if (auto* tetgen = std::get_if<scenario::Tetgen>(&mesh)) {
+      tetgen->nodes = static_cast<int>(std::pow(finer, 3) * tetgen->nodes);
+      tetgen->tetrahedra.reset();
+    }
+    try {
+      const double change_of_modulus =
+          std::abs(platen_modulus(other) / platen_modulus(asked_) - 1.0);
+      return finer > 1.0 ? 2.0 * change_of_modulus : change_of_modulus;
+    } catch (const MeshError&) {   // the models that mesh the body say why,
+    } catch (const InputError&) {  // and where the mistake stands
+    }
+    return unknown;
+  }
+
+  [[nodiscard]] double platen_modulus(const scenario::Resolved& scenario) {
+    scenario::Family family;
+    family.folder = case_.folder;
+    scene::Choice choice;
+    choice.given = true;
+    choice.chosen = scenario;
+    choice.chosen.solver.model = Model::coupled_springs;
+    return scene::build({}, family, shapes_, choice).specimen->pressed.young_modulus;
   }
 
   void pressed() {
