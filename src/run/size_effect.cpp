@@ -232,7 +232,8 @@ double swing(const SizeEffect& size, const scene::Estimates& estimates,
     found = contact / force * contact / (contact + body) * upright * estimates.rate / frequency *
             started;
   } while (found - before > settled * found);
-  return found;
+  // Such a mass never moves towards the finger: at most the formula's force acts.
+  return std::min(found, 1.0 / (1.0 + change) - 1.0);
 }
 
 }  // namespace palpate::run
