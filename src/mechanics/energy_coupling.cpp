@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <list>
 #include <map>
 #include <numbers>
 
@@ -264,14 +265,21 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
   if (!solver_.prepare(stiffness(), held_)) throw MeshError(tissue::not_held);
 }
 
-// The linear finite elements of the mesh are its coupled springs; those of a region without
+// The linear finite elements of the mesh are its coupled springs; those of a tissue without
 // stiffness are excluded.
-BlockMatrix EnergyCoupling::stiffness(int without) const {
+BlockMatrix EnergyCoupling::stiffness(std::span<const char> only) const {
   std::vector<tissue::Isotropic> tissues;
   for (const Tissue& tissue : tissues_) tissues.push_back(tissue.elastic);
-  if (without >= 0) tissues[as_index(without)].young_modulus = 0.0;
+  geometry::TetMesh mesh = mesh_;
+  if (!only.empty()) {
+    const int none = static_cast<int>(tissues.size());
+    tissues.push_back(tissues.front());
+    tissues.back().young_modulus = 0.0;
+    for (std::size_t t = 0; t < only.size(); ++t)
+      if (only[t] == 0) mesh.regions[t] = none;
+  }
   tissue::Network network = springs_;
-  tissue::couple(network, mesh_, tissues, volume_, scene::own_share);
+  tissue::couple(network, mesh, tissues, volume_, scene::own_share);
   return tissue::stiffness_matrix(network);
 }
 
@@ -305,9 +313,38 @@ int EnergyCoupling::region_under(int triangle) const {
 const EnergyCoupling::Home& EnergyCoupling::home(int region) {
   std::optional<Home>& known = homes_[as_index(region)];
   if (known) return *known;
-  Home& here = known.emplace();
+  std::vector<char> away(mesh_.tetrahedra.size(), 0);
+  for (std::size_t t = 0; t < away.size(); ++t) away[t] = mesh_.regions[t] != region ? 1 : 0;
+  return known.emplace(make_home(std::move(away), region));
+}
+
+// A half-space has no field above its plane: over a place its stress is that of the place, also
+// within the patch, however high the point lies. What lies higher above the plane than beside the
+// contact, as another strand of a knot, is away from home.
+std::vector<char> EnergyCoupling::hanging_over(const contact::Patch& patch, int region) const {
+  std::vector<char> high(mesh_.nodes.size(), 0);
+  for (std::size_t n = 0; n < high.size(); ++n) {
+    const Vec3 from = mesh_.nodes[n] - patch.position;
+    const double height = from.dot(patch.normal);
+    high[n] = height > 0.0 && 2.0 * height * height > from.squaredNorm() ? 1 : 0;
+  }
+  std::vector<char> away(mesh_.tetrahedra.size(), 0);
+  bool hangs = false;
+  for (std::size_t t = 0; t < away.size(); ++t) {
+    const auto& corners = mesh_.tetrahedra[t];
+    const bool over = std::all_of(corners.begin(), corners.end(),
+                                  [&](int node) { return high[as_index(node)] != 0; });
+    hangs = hangs || (over && mesh_.regions[t] == region);
+    away[t] = over || mesh_.regions[t] != region ? 1 : 0;
+  }
+  return hangs ? away : std::vector<char>{};
+}
+
+EnergyCoupling::Home EnergyCoupling::make_home(std::vector<char> away, int region) const {
+  Home here;
+  here.away = std::move(away);
   const auto at_home = [&](const geometry::FaceUse& use) {
-    return mesh_.regions[as_index(use.tetrahedron)] == region;
+    return here.away[as_index(use.tetrahedron)] == 0;
   };
   for (std::size_t i = 0; i < uses_.size();) {
     const bool shared = i + 1 < uses_.size() && uses_[i + 1].key == uses_[i].key;
@@ -339,11 +376,13 @@ const EnergyCoupling::Home& EnergyCoupling::home(int region) {
   here.other.assign(mesh_.nodes.size(), 0);
   bool several = false;
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
-    if (mesh_.regions[t] == region) continue;
+    if (here.away[t] == 0) continue;
     several = true;
-    for (const int node : mesh_.tetrahedra[t]) here.other[as_index(node)] = 1;
+    const char other = mesh_.regions[t] != region ? other_tissue : 1;
+    for (const int node : mesh_.tetrahedra[t])
+      here.other[as_index(node)] = std::max(here.other[as_index(node)], other);
   }
-  if (several) here.others = stiffness(region);
+  if (several) here.others = stiffness(here.away);
   return here;
 }
 
@@ -354,7 +393,7 @@ BeyondHalfSpace EnergyCoupling::beyond(const contact::Patch& patch, const Vec3& 
 
 std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> presses, int finer) {
   struct Case {
-    int region;
+    const Home* home;
     Vector loads;         // N/N, g
     Vector curved;        // N/N, of a curved surface under the patch
     double known;         // m/N, c
@@ -364,12 +403,17 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
   const Eigen::Index freedoms = static_cast<Eigen::Index>(held_.size());
   std::vector<Case> cases;
   std::vector<Vector> right;
+  std::list<Home> below;  // parts of the body that hang over a contact
   for (const auto& [patch, along, sum_of_two] : presses) {
     const int region = region_under(patch.at.triangle);
-    const Home& here = home(region);
+    std::vector<char> away = hanging_over(patch, region);
+    const bool hangs = !away.empty();
+    if (hangs && (below.empty() || below.back().away != away))
+      below.push_back(make_home(std::move(away), region));
+    const Home& here = hangs ? below.back() : home(region);
     Loads loads(mesh_, *outer_surface_, patch, tissues_[as_index(region)], finer, along);
     Case& one = cases.emplace_back(
-        Case{region, {}, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
+        Case{&here, {}, {}, 0.0, Vector::Zero(freedoms), Vector::Zero(freedoms)});
     for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) {
       const bool supported = held_[3 * n] != 0 || held_[3 * n + 1] != 0 || held_[3 * n + 2] != 0;
       if (!supported && here.other[n] == 0) continue;
@@ -408,7 +452,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
         one.known + one.loads.dot(result.rest) + 2.0 * one.curved.dot(result.rest);
     for (Eigen::Index d = 0; d < freedoms; ++d)
       if (held_[as_index(d)] != 0) result.surface_displacement -= reaction[d] * one.held_by[d];
-    find_errors(presses[i].patch, one.interpolated, one.region, home(one.region), result);
+    find_errors(presses[i].patch, one.interpolated, *one.home, result);
   }
   return results;
 }
@@ -416,7 +460,7 @@ std::vector<BeyondHalfSpace> EnergyCoupling::beyond(std::span<const Press> press
 // Zienkiewicz and Zhu 1992: the stress is recovered at the nodes by a linear fit over the
 // tetrahedra around them, of one tissue at a time; the error is the energy of the difference.
 void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& interpolated,
-                                 int region, const Home& home, BeyondHalfSpace& result) const {
+                                 const Home& home, BeyondHalfSpace& result) const {
   const Vector& rest = result.rest;
   using Stress = Eigen::Matrix<double, 6, 1>;  // xx yy zz xy xz yz
   const std::size_t count = elements_.size();
@@ -431,7 +475,7 @@ void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& inte
     for (std::size_t k = 0; k < 4; ++k) {
       const Eigen::Index first = 3 * mesh_.tetrahedra[t][k];
       Vec3 moved = rest.segment<3>(first);
-      if (mesh_.regions[t] != region) moved += interpolated.segment<3>(first);
+      if (home.away[t] != 0) moved += interpolated.segment<3>(first);
       gradient += moved * element.gradients.row(static_cast<Eigen::Index>(k));
     }
     dilations[t] = gradient.trace();
@@ -503,7 +547,7 @@ void EnergyCoupling::find_errors(const contact::Patch& patch, const Vector& inte
   // over that to the next boundary. Of what wider tetrahedra miss, the estimate sees a part only.
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < mesh_.nodes.size(); ++n)
-    if (held_[3 * n + 2] != 0 || home.other[n] != 0)
+    if (held_[3 * n + 2] != 0 || home.other[n] == other_tissue)
       nearest = std::min(nearest, (mesh_.nodes[n] - patch.position).norm());
   nearest = std::max(nearest, 0.5 * patch.radius());
   for (std::size_t t = 0; t < count; ++t) {

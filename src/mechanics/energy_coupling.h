@@ -74,10 +74,13 @@ class EnergyCoupling {
     int tetrahedron = 0;   // of the tissue
     double cut_off = 0.0;  // m^3, between the face and the smooth surface
   };
-  // What depends on the tissue at the contact.
+  // The tetrahedra in which the half-space's field is subtracted: those of the tissue at the
+  // contact, but for parts of the body that hang over the contact.
+  static constexpr char other_tissue = 2;
   struct Home {
+    std::vector<char> away;  // per tetrahedron: 1 if it is none of them
     std::vector<Face> faces;
-    std::vector<char> other;            // per node: 1 at tetrahedra of other tissues
+    std::vector<char> other;  // per node: 1 at tetrahedra that are away, 2 at other tissues
     std::optional<BlockMatrix> others;  // N/m, stiffness of these tetrahedra alone
   };
   struct Tissue {
@@ -93,13 +96,17 @@ class EnergyCoupling {
   class Loads;
 
   void find_tissues(const scene::Scene& scene, double unit);
-  // The stiffness (N/m) of all tetrahedra, or of those in other regions than `without`.
-  [[nodiscard]] BlockMatrix stiffness(int without = -1) const;
+  // The stiffness (N/m) of all tetrahedra, or of those with a flag.
+  [[nodiscard]] BlockMatrix stiffness(std::span<const char> only = {}) const;
   [[nodiscard]] int region_under(int triangle) const;
   [[nodiscard]] const Home& home(int region);
+  [[nodiscard]] Home make_home(std::vector<char> away, int region) const;
+  // Flags of the tetrahedra that hang over a contact in a region, and of other regions; empty if
+  // none hangs over it.
+  [[nodiscard]] std::vector<char> hanging_over(const contact::Patch& patch, int region) const;
   [[nodiscard]] double cut_off(const Face& face) const;
   // Fills error, doubt and errors of a solution.
-  void find_errors(const contact::Patch& patch, const integrate::Vector& interpolated, int region,
+  void find_errors(const contact::Patch& patch, const integrate::Vector& interpolated,
                    const Home& home, BeyondHalfSpace& result) const;
 
   geometry::TetMesh mesh_;  // of the part

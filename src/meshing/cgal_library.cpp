@@ -131,6 +131,18 @@ struct LengthForSpacing {
   }
 };
 
+// CGAL asks for the place of an edge whenever it asks for its cost, which does not depend on it,
+// and again when the edge is collapsed: only then it is computed.
+struct PlaceWhenCollapsed {
+  bool* selected;
+
+  boost::optional<Point> operator()(
+      const CGAL::Surface_mesh_simplification::Edge_profile<Mesh>& profile) const {
+    if (!std::exchange(*selected, false)) return profile.p0();
+    return simplification::LindstromTurk_placement<Mesh>()(profile);
+  }
+};
+
 }  // namespace
 
 std::vector<std::array<int, 2>> self_intersections(const geometry::Surface& surface) {
@@ -189,10 +201,15 @@ geometry::Surface collapsed(const geometry::Surface& surface, std::span<const do
   // With no edge below 0.7 of it, the mean edge is about the spacing: measured on ellipsoids.
   const double largest = *std::max_element(spacing.begin(), spacing.end());
   const double least_square = (0.7 * largest) * (0.7 * largest);
+  bool selected = false;
   simplification::edge_collapse(
-      mesh, [&](double square, const auto&, auto, auto) { return square > least_square; },
+      mesh,
+      [&](double square, const auto&, auto, auto) {
+        selected = true;
+        return square > least_square;
+      },
       CGAL::parameters::get_cost(LengthForSpacing{spacing, largest})
-          .get_placement(simplification::LindstromTurk_placement<Mesh>())
+          .get_placement(PlaceWhenCollapsed{&selected})
           .filter(Shapes()));
   return taken(mesh);
 }

@@ -90,12 +90,10 @@ int obj_vertex(const TableLines& lines, std::size_t i, int vertices_so_far) {
 Polygons obj(TableLines lines) {
   std::size_t vertices = 0;
   TableLines ahead = lines;  // a face may name a later vertex
-  while (ahead.next())
+  while (ahead.next_joined())
     if (ahead.words()[0] == "v") ++vertices;
   Polygons polygons;
-  while (lines.next()) {
-    if (lines.words().back().ends_with('\\'))
-      lines.fail("a line that goes on in the next one is not understood; write it as one line");
+  while (lines.next_joined()) {
     if (lines.words()[0] == "v") {
       polygons.vertices.push_back(point(lines, 1));
     } else if (lines.words()[0] == "f") {

@@ -109,50 +109,91 @@ void flatten_sides(const Surface& original, double spacing, Surface& surface) {
 }
 
 // Edges of about `spacing`, m, at the vertices of `surface`, which is in the tree.
-struct Attempt {
-  const Surface& surface;
-  const geometry::BoxTree& tree;
-  std::vector<double> spacing;
-  bool uneven = false;  // even triangles are collapsed, all to the first spacing
+class Attempt {
+ public:
+  Attempt(const Surface& surface, const geometry::BoxTree& tree, double spacing)
+      : surface_(surface), tree_(tree), spacing_(surface.vertices.size(), spacing) {}
 
-  [[nodiscard]] std::size_t nearest_vertex(const Vec3& place) const {
-    const geometry::Near near = tree.nearest(place);
-    Eigen::Index corner = 0;
-    near.weights.maxCoeff(&corner);
-    return as_index(surface.triangles[as_index(near.triangle)][static_cast<std::size_t>(corner)]);
+  [[nodiscard]] double longest() const { return std::ranges::max(spacing_); }
+
+  // Even triangles that are collapsed, all to the first spacing.
+  [[nodiscard]] std::optional<Surface> even() const {
+    return in_child([&] {
+      const double edge = spacing_.front();
+      const Surface even = cgal_library::even(surface_, even_part * edge, crease_degrees);
+      return cgal_library::collapsed(even, std::vector(even.vertices.size(), edge));
+    });
   }
 
-  [[nodiscard]] std::optional<Surface> made() const {
-    const ChildResult result = run_in_child(
-        [&] {
-          if (!uneven) return packed(cgal_library::collapsed(surface, spacing));
-          const double edge = spacing.front();
-          const Surface even = cgal_library::even(surface, even_part * edge, crease_degrees);
-          return packed(cgal_library::collapsed(even, std::vector(even.vertices.size(), edge)));
-        },
-        remeshing_limits);
-    return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
+  // Edges of a large surface are collapsed once to a finer one, from which all tries begin whose
+  // edges are twice as long or more.
+  [[nodiscard]] std::optional<Surface> collapsed() {
+    if (surface_.triangles.size() < large) return collapsed(surface_, spacing_);
+    constexpr double finer = 1.0 / 8.0;
+    bool begins = !begun_.triangles.empty();
+    for (std::size_t v = 0; begins && v < spacing_.size(); ++v)
+      begins = spacing_[v] >= 2.0 * begun_with_[v];
+    if (!begins) {
+      begun_with_ = spacing_;
+      for (double& edge : begun_with_) edge *= finer;
+      auto found = collapsed(surface_, begun_with_);
+      if (!found) return std::nullopt;
+      begun_ = std::move(*found);
+      nearest_.clear();
+      for (const Vec3& vertex : begun_.vertices) nearest_.push_back(nearest_vertex(vertex));
+    }
+    std::vector<double> spacing;
+    for (const std::size_t vertex : nearest_) spacing.push_back(spacing_[vertex]);
+    return collapsed(begun_, spacing);
   }
+
+  void restore(double spacing) { std::ranges::fill(spacing_, spacing); }
 
   // Takes shorter edges up to one edge from these places, or from others as near to them.
   void shorten(std::span<const Vec3> places) {
-    std::vector<char> marks(spacing.size(), 0);
+    std::vector<char> marks(spacing_.size(), 0);
     std::vector<geometry::Near> found;
     for (const Vec3& place : places) {
       const std::size_t nearest = nearest_vertex(place);
       if (marks[nearest] != 0) continue;
-      tree.within(surface.vertices[nearest], spacing[nearest], found);
+      tree_.within(surface_.vertices[nearest], spacing_[nearest], found);
       for (const geometry::Near& near : found)
-        for (const int corner : surface.triangles[as_index(near.triangle)])
+        for (const int corner : surface_.triangles[as_index(near.triangle)])
           marks[as_index(corner)] = 1;
     }
-    for (std::size_t v = 0; v < spacing.size(); ++v)
-      if (marks[v] != 0) spacing[v] *= shorter_there;
+    for (std::size_t v = 0; v < spacing_.size(); ++v)
+      if (marks[v] != 0) spacing_[v] *= shorter_there;
   }
 
   void shorten() {
-    for (double& edge : spacing) edge *= shorter;
+    for (double& edge : spacing_) edge *= shorter;
   }
+
+ private:
+  template <class Make>
+  [[nodiscard]] static std::optional<Surface> in_child(const Make& make) {
+    const ChildResult result = run_in_child([&] { return packed(make()); }, remeshing_limits);
+    return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
+  }
+
+  [[nodiscard]] static std::optional<Surface> collapsed(const Surface& from,
+                                                        std::span<const double> spacing) {
+    return in_child([&] { return cgal_library::collapsed(from, spacing); });
+  }
+
+  [[nodiscard]] std::size_t nearest_vertex(const Vec3& place) const {
+    const geometry::Near near = tree_.nearest(place);
+    Eigen::Index corner = 0;
+    near.weights.maxCoeff(&corner);
+    return as_index(surface_.triangles[as_index(near.triangle)][static_cast<std::size_t>(corner)]);
+  }
+
+  const Surface& surface_;
+  const geometry::BoxTree& tree_;
+  std::vector<double> spacing_;       // m, per vertex
+  Surface begun_;                     // of a large surface
+  std::vector<double> begun_with_;    // m, per vertex of `surface_`
+  std::vector<std::size_t> nearest_;  // per vertex of `begun_`
 };
 
 bool has_sharp_edge(const Surface& surface) {
@@ -219,14 +260,19 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
   const geometry::BoxTree original(surface);
-  const std::vector<double> asked(surface.vertices.size(), spacing);
-  bool over = false;  // shorter spacings would have too many triangles
-  const auto found_in = [&](int tries, Attempt& attempt, bool by_place,
-                            std::size_t most) -> std::optional<Remeshed> {
+  const bool uneven = !sharp && count_needles(surface) > 0;
+  Attempt attempt(surface, original, spacing);
+  std::optional<Surface> first;  // edges of the spacing that was asked for
+  bool over = false;             // shorter spacings would have too many triangles
+  const auto found_in = [&](int tries, bool by_place, std::size_t most) -> std::optional<Remeshed> {
     for (int i = 0; i < tries && !over; ++i) {
       std::vector<Vec3> wrong;
-      if (std::optional<Surface> made = attempt.made(); made && !made->triangles.empty()) {
-        flatten_sides(surface, std::ranges::max(attempt.spacing), *made);
+      std::optional<Surface> made = uneven && !by_place           ? attempt.even()
+                                    : by_place && i == 0 && first ? std::move(first)
+                                                                  : attempt.collapsed();
+      if (made && !made->triangles.empty()) {
+        if (i == 0 && !by_place && !uneven) first = made;
+        flatten_sides(surface, attempt.longest(), *made);
         const std::size_t count = made->triangles.size();
         over = count >= most;
         if (over) break;
@@ -247,21 +293,21 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
     }
     return std::nullopt;
   };
-  const auto by_place = [&] {
-    Attempt attempt{surface, original, asked};
-    return found_in(16, attempt, true, given);
-  };
-  if (sharp) return by_place();
-  Attempt attempt{surface, original, asked, count_needles(surface) > 0};
-  const std::size_t most = attempt.uneven ? std::max<std::size_t>(2 * given, 2000) : given;
-  if (auto found = found_in(3, attempt, false, most)) return found;
+  constexpr int even_tries = 3;
+  if (sharp) return found_in(16, true, given);
+  const std::size_t most = uneven ? std::max<std::size_t>(2 * given, 2000) : given;
+  if (auto found = found_in(even_tries, false, most)) return found;
   if (over) return std::nullopt;
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
-  if (looser <= 1.0)
-    if (auto found = by_place()) return found;
+  if (looser <= 1.0) {
+    attempt.restore(spacing);
+    if (auto found = found_in(16, true, given)) return found;
+  }
   over = false;
-  return found_in(5, attempt, false, most);
+  attempt.restore(spacing);
+  for (int i = 0; i < even_tries; ++i) attempt.shorten();
+  return found_in(5, false, most);
 }
 
 }  // namespace palpate::meshing

@@ -35,6 +35,21 @@ bool TableLines::next() {
   return false;
 }
 
+bool TableLines::next_joined() {
+  constexpr char goes_on = '\\';
+  if (!next()) return false;
+  if (!words_.back().ends_with(goes_on)) return true;
+  std::vector<std::string_view> joined = words_;
+  while (!joined.empty() && joined.back().ends_with(goes_on)) {
+    joined.back().remove_suffix(1);
+    if (joined.back().empty()) joined.pop_back();
+    if (!next()) break;
+    joined.insert(joined.end(), words_.begin(), words_.end());
+  }
+  words_ = std::move(joined);
+  return !words_.empty();
+}
+
 void TableLines::skip_paragraph() {
   bool empty = false;
   while (!empty && position_ < text_.size()) {
@@ -76,8 +91,16 @@ void TableLines::fail(const std::string& message) const {
 }
 
 void TableLines::fail_at(std::size_t i, const std::string& message) const {
-  const auto column = static_cast<int>(words_[i].data() - current_.data()) + 1;
-  throw InputError({file_, line_, column}, message);
+  // A word of a joined line may stand in an earlier one.
+  const std::string_view text = text_;
+  const auto at = static_cast<std::size_t>(words_[i].data() - text.data());
+  const auto line_end = static_cast<std::size_t>(current_.data() - text.data()) + current_.size();
+  const auto lines_after =
+      std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
+                 text.begin() + static_cast<std::ptrdiff_t>(std::max(at, line_end)), '\n');
+  const std::size_t start = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;  // npos + 1 is 0
+  throw InputError({file_, line_ - static_cast<int>(lines_after), static_cast<int>(at - start) + 1},
+                   message);
 }
 
 }  // namespace palpate::meshing

@@ -18,6 +18,9 @@ class TableLines {
   // Goes to the next line that contains words; false at the end of the file.
   [[nodiscard]] bool next();
 
+  // The same; a line that ends with a backslash goes on in the next one.
+  [[nodiscard]] bool next_joined();
+
   // The current line's words, which refer to data of this object.
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
 

@@ -303,7 +303,7 @@ class Chooser {
       const SizeEffect found = size_effect(asked_, case_.folder, choice_.touch, shapes_);
       if (found.nodes == 0) return;
       if (!formula && scene::refines(asked_)) {
-        e.swing = swing(found, e, asked_.tissue);
+        e.swing = swing(found, e, choice_.touch, asked_.tissue);
         e.inertia += e.swing;
         return;
       }
@@ -311,7 +311,7 @@ class Chooser {
       // What an elastic finger takes of the depth knows nothing of the body.
       const double change = e.tissue_share * found.change;
       e.size_error = e.tissue_share * found.error;
-      e.swing = swing(found, e, asked_.tissue);
+      e.swing = swing(found, e, choice_.touch, asked_.tissue);
       e.inertia += e.swing;
       e.measured = true;
       if (std::holds_alternative<scenario::Cuboid>(asked_.tissue.shape)) {
@@ -391,12 +391,14 @@ class Chooser {
     return std::max(least, (used ? 0.0 : std::abs(e.deep)) + e.deep_error + in_waves);
   }
 
-  // All of the effect where the model does not move, or its mesh does not carry the waves.
+  // All of the effect where the model does not move, or its mesh does not carry the waves; else a
+  // part of it, over the force that contains it.
   [[nodiscard]] double of_waves(const ModelTraits& traits, const Found& found) const {
     const bool carried =
         computes_waves(traits, found) &&
         scene::carries_waves(asked_, choice_.touch, choice_.expected.contact_radius);
-    return (carried ? traits.waves : 1.0) * counted(choice_.expected.inertia);
+    const double waves = counted(choice_.expected.inertia);
+    return carried ? traits.waves * waves / (1.0 + waves) : waves;
   }
 
   [[nodiscard]] bool computes_waves(const ModelTraits& traits, const Found& found) const {

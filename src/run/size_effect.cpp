@@ -142,8 +142,10 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
       if (found.nodes == 0 || std::abs(change) > std::abs(found.change)) found.change = change;
       if (found.nodes == 0 || std::abs(softer) > std::abs(found.softer)) found.softer = softer;
       found.error = std::max(found.error, mechanics::mesh_error(*contact));
-      found.moving = std::max(
-          found.moving, moving_volume(mesh, pressed, (1.0 - depth_share(softer)) * travel, scene));
+      const double indented = touch.pressed(scene.finger.sphere_radius, travel).depth;
+      found.moving =
+          std::max(found.moving,
+                   moving_volume(mesh, pressed, (1.0 - depth_share(softer)) * indented, scene));
       found.nodes = scene.specimen->network.nodes();
       break;
     }
@@ -187,8 +189,11 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
     // Effects of size grow with the radius of the contact.
     const double narrower =
         std::sqrt(wanted / std::get<scenario::Indent>(trial.steps.front()).to.value);
-    return SizeEffect{narrower * numbers[0], narrower * numbers[1], narrower * numbers[2],
-                      numbers[3], static_cast<int>(numbers[4])};
+    // What the body yields over the depth of the contact; a change cannot reach -1.
+    const double yields = narrower * (1.0 / depth_share(numbers[2]) - 1.0);
+    return SizeEffect{narrower * numbers[0], narrower * numbers[1],
+                      1.0 / ((1.0 + yields) * std::sqrt(1.0 + yields)) - 1.0, numbers[3],
+                      static_cast<int>(numbers[4])};
   };
   const SizeEffect low = share < 1.0 ? at(*(above - 1)) : SizeEffect{};
   const SizeEffect high = share > 0.0 ? at(*above) : low;
@@ -201,19 +206,34 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
 }
 
 double swing(const SizeEffect& size, const scene::Estimates& estimates,
-             const scenario::Resolved::Tissue& tissue) {
+             const scene::SurfaceTouch& touch, const scenario::Resolved::Tissue& tissue) {
   const double change = estimates.tissue_share * size.softer;
   if (!(change < 0.0 && size.moving > 0.0 && estimates.rate > 0.0)) return 0.0;
   const double compliance =
       contact::Elastic{tissue.young_modulus, tissue.poisson_ratio}.compliance();
-  const double force = 4.0 / 3.0 * estimates.tissue_share / compliance * estimates.contact_radius *
-                       estimates.travel * (1.0 + change);
-  const double depth = estimates.travel * depth_share(change);
-  const double contact = 1.5 * force / depth;                                             // N/m
-  const double body = force / (estimates.travel - depth);                                 // N/m
-  const double frequency = std::sqrt((contact + body) / (tissue.density * size.moving));  // rad/s
-  const double started = std::min(1.0, frequency * estimates.travel / estimates.rate);
-  return contact / force * contact / (contact + body) * estimates.rate / frequency * started;
+  // All along the normal; a^2 goes with the indentation.
+  const double upright = touch.curvature.normal.z();
+  const double indented = upright * estimates.travel;
+  const double force = 4.0 / 3.0 * estimates.tissue_share / compliance * std::sqrt(upright) *
+                       estimates.contact_radius * indented * (1.0 + change);
+  const double depth = indented * depth_share(change);
+  const double body = force / (indented - depth);  // N/m
+  // The contact is stiffer under the force with the swing. A swing grows with less than the square
+  // of the contact's stiffness, which goes with the third root of the force: the sequence
+  // converges.
+  constexpr double settled = 1e-3;
+  double before = 0.0;
+  double found = 0.0;
+  do {
+    before = found;
+    const double contact = 1.5 * force / depth * std::cbrt(1.0 + found);                    // N/m
+    const double frequency = std::sqrt((contact + body) / (tissue.density * size.moving));  // rad/s
+    const double started = std::min(1.0, frequency * estimates.travel / estimates.rate);
+    found = contact / force * contact / (contact + body) * upright * estimates.rate / frequency *
+            started;
+  } while (found - before > settled * found);
+  // Such a mass never moves towards the finger: at most the formula's force acts.
+  return std::min(found, 1.0 / (1.0 + change) - 1.0);
 }
 
 }  // namespace palpate::run

@@ -43,6 +43,7 @@ struct SizeEffect {
 // at its rate: its mass on what it yields beyond the formula, behind the spring of the contact.
 //                                                                   docs/theory.md [swing]
 [[nodiscard]] double swing(const SizeEffect& size, const scene::Estimates& estimates,
+                           const scene::SurfaceTouch& touch,
                            const scenario::Resolved::Tissue& tissue);
 
 }  // namespace palpate::run

@@ -11,8 +11,10 @@
 
 #include "auto_scenes.h"
 #include "base/index.h"
+#include "base/text.h"
 #include "geometry/shapes.h"
 #include "meshing/surface_files.h"
+#include "revolved_bodies.h"
 #include "run/answer.h"
 #include "run/refined_mesh.h"
 #include "scenario/family.h"
@@ -312,6 +314,76 @@ TEST(Choose, APillarOfAFileSwingsWhereNoFormulaApplies) {
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(choice.touch.known());
   EXPECT_GT(choice.expected.swing, rod_swings(0.010, 0.100, 1e4, 0.3, 1100.0, 0.006, 5e-4, 5e-3));
+}
+
+// The same where the finger slides down a slender rod's round end, whose normal is inclined: the
+// rod bends. Euler's and Bernoulli's beam in a line of masses, pressed by the normal's horizontal
+// share of Hertz's force.
+double rod_bends(double radius, double height, double modulus, double nu, double density,
+                 double ball, double depth, double rate, double inclination) {
+  constexpr int cells = 20;
+  constexpr double dt = 5e-5;
+  const double dx = height / cells;
+  const double bending = modulus * 3.14159265 / 4.0 * std::pow(radius, 4);
+  const double mass = density * 3.14159265 * radius * radius * dx;
+  const double law =
+      4.0 / 3.0 * modulus / (1.0 - nu * nu) * std::sqrt(1.0 / (1.0 / ball + 1.0 / radius));
+  const double across = std::sin(inclination);
+  const double down = std::cos(inclination);
+  const auto force = [&](double way, double end) {
+    return law * std::pow(std::max(0.0, down * way - across * end), 1.5);
+  };
+  std::vector<double> place(cells + 1, 0.0), speed(cells + 1, 0.0);  // sideways, 0 is held
+  double largest = 0.0, at_rest = 0.0;
+  for (double time = 0.0; time < depth / rate; time += dt) {
+    const double way = rate * time;
+    std::vector<double> moment(cells + 2, 0.0);  // none at the free end
+    for (int i = 0; i < cells; ++i)
+      moment[as_index(i)] = bending / (dx * dx) *
+                            (place[as_index(std::abs(i - 1))] - 2.0 * place[as_index(i)] +
+                             place[as_index(i + 1)]);  // clamped: as if mirrored
+    for (int i = 1; i <= cells; ++i) {
+      const double bent =
+          (moment[as_index(i - 1)] - 2.0 * moment[as_index(i)] + moment[as_index(i + 1)]) / dx;
+      const double pushed = i < cells ? 0.0 : across * force(way, place.back());
+      speed[as_index(i)] += dt / (i < cells ? mass : 0.5 * mass) * (pushed - bent);
+    }
+    for (int i = 1; i <= cells; ++i) place[as_index(i)] += dt * speed[as_index(i)];
+    double low = 0.0, high = down * way / across;  // of the end at rest
+    const double spring = 3.0 * bending / std::pow(height, 3);
+    while (high - low > 1e-9 * way) {
+      const double middle = 0.5 * (low + high);
+      (across * force(way, middle) > spring * middle ? low : high) = middle;
+    }
+    at_rest = force(way, low);
+    largest = std::max(largest, std::abs(force(way, place.back()) - at_rest));
+  }
+  return largest / at_rest;
+}
+
+TEST(Choose, ARodThatIsPressedOnASteepPlaceSwings) {
+  const test::TemporaryFolder folder;
+  test::Profile profile;
+  for (int i = 0; i < 6; ++i)
+    profile.push_back({10.0 * std::sin(0.2618 * i), 90.0 + 10.0 * std::cos(0.2618 * i)});
+  test::add_line(profile, {10.0, 90.0}, {10.0, 0.0}, 4.5);
+  test::add_base(profile, 10.0, 5.0);
+  test::write_surface(profile, 4.5, folder / "rod.off");
+  for (const double inclination : {0.785, 1.08}) {
+    const scenario::Family family = scenario::parse(
+        "[tissue]\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.4\ndensity = \"1041 kg/m^3\"\n"
+        "viscosity = \"none\"\nshape = { file = \"rod.off\", unit = \"mm\" }\n[finger]\n"
+        "material = \"rigid\"\nradius = \"6 mm\"\nx = \"" +
+            number_text(16.0 * std::sin(inclination)) +
+            " mm\"\ny = \"0 mm\"\n[[step]]\nkind = \"indent\"\nto = \"0.6 mm\"\n"
+            "rate = \"5 mm/s\"\n",
+        folder / "press.toml", {});
+    const Choice choice = run::choose(family.cases.front());
+    const double truth = rod_bends(0.010, 0.095, 1e4, 0.4, 1041.0, 0.006, 6e-4, 5e-3, inclination);
+    EXPECT_GT(truth, 2.0);  // the static force is small, as the rod bends away
+    EXPECT_GT(choice.expected.swing, truth);
+    EXPECT_LT(choice.expected.swing, 3.0 * truth);
+  }
 }
 
 TEST(Choose, ACoarseLatticeDoesNotCarryWaves) {

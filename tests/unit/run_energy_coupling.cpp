@@ -3,10 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "geometry/box_tree.h"
+#include "geometry/cuboid.h"
+#include "meshing/mesh_files.h"
 #include "scene/first_touch.h"
 #include "scene_text.h"
+#include "temporary_folder.h"
 
 namespace palpate::mechanics {
 namespace {
@@ -70,6 +77,62 @@ TEST(EnergyCoupling, ALumpOfTheSameTissueIsNone) {
     EXPECT_NEAR(with.surface_displacement + with.error,
                 without.surface_displacement + without.error, 0.01 * half_space(scene));
   }
+}
+
+// A wall of 20 mm on a held plate, pressed in the middle of its side, and perhaps another wall in
+// front of that side, 20 mm away.
+std::vector<double> pressed_wall(bool another) {
+  const geometry::TetMesh block =
+      geometry::cuboid({0.060, 0.040, 0.040}, {12, 8, 8}, geometry::CellPattern::mirrored);
+  geometry::TetMesh walls;
+  std::vector<int> number(block.nodes.size(), -1);
+  for (auto corners : block.tetrahedra) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : corners) middle += 0.25 * block.nodes[as_index(node)];
+    if (middle.z() > 0.010 && middle.x() > 0.020 && !(another && middle.x() > 0.040)) continue;
+    for (int& node : corners) {
+      int& own = number[as_index(node)];
+      if (own < 0) {
+        own = static_cast<int>(walls.nodes.size());
+        walls.nodes.push_back(block.nodes[as_index(node)]);
+      }
+      node = own;
+    }
+    walls.tetrahedra.push_back(corners);
+  }
+  const test::TemporaryFolder folder;
+  meshing::write_node_ele(folder / "walls.node", walls);
+  const scene::Scene scene = test::first_scene(scenario::parse(
+      "[tissue]\nyoung_modulus = \"10 kPa\"\nbase_height = \"10 mm\"\nshape = { kind "
+      "= \"as_meshed\" }\nmesh = { file = \"walls.node\", unit = \"m\" }\n[finger]\nx "
+      "= \"10 mm\"\n" +
+          solver + press,
+      folder / "press.toml", {}));
+  const tissue::Part part = tissue::whole_part(scene.specimen->network);
+  EnergyCoupling coupling(scene, part, scene.specimen->held);
+  const geometry::SmoothSurface& outer_surface = *scene.specimen->surface;
+  const geometry::Near near =
+      geometry::BoxTree(outer_surface.surface()).nearest({0.020, 0.021, 0.028});
+  contact::Patch patch;
+  patch.at = {near.triangle, near.weights};
+  patch.position = outer_surface.position(patch.at);
+  patch.normal = outer_surface.normal(patch.at);
+  patch.axis = patch.normal.unitOrthogonal();
+  std::vector<double> found;
+  for (const double radius : {1e-3, 2e-3, 3e-3}) {
+    patch.a = patch.b = radius;
+    found.push_back(coupling.beyond(patch, -patch.normal).surface_displacement);
+  }
+  return found;
+}
+
+// The half-space's stress is that of its plane for points above it, and would press the other wall
+// as hard as the patch is pressed.
+TEST(EnergyCoupling, WhatHangsOverAContactIsNotPressed) {
+  const std::vector<double> alone = pressed_wall(false);
+  const std::vector<double> between = pressed_wall(true);
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    EXPECT_NEAR(between[i], alone[i], 0.005 * alone[i]);  // the plate is held on its surface alone
 }
 
 }  // namespace
