@@ -193,11 +193,11 @@ std::vector<Item> columns_that_differ(const compare::FolderComparison& compariso
 }
 
 // The overlays of all files, drawn in a folder beside the page that is gone afterwards.
-page::Markup overlays(const Compare& command, const compare::FolderComparison& comparison,
+std::vector<page::Markup> overlays(const Compare& command, const compare::FolderComparison& comparison,
                       const Names& names, const Talk& talk) {
   const bool folders = fs::is_directory(command.want);
   const std::string folder = command.report + ".partial";
-  page::Markup all;
+  std::vector<page::Markup> all;
   const std::vector<Item> differing = columns_that_differ(comparison);
   for (const compare::FileComparison& file : comparison.files) {
     if (file.state != compare::FileComparison::State::compared) continue;
@@ -221,8 +221,9 @@ page::Markup overlays(const Compare& command, const compare::FolderComparison& c
     if (fs::exists(picture)) {
       const page::Markup svg =
           page::inline_svg(read_text(picture.string()), page::id_of(file.file), caption);
-      all += page::element("figure", page::element("div", svg, {{"class", "plot"}}) +
-                                         page::element("figcaption", caption));
+      all.push_back(
+          page::element("figure", page::element("div", svg, {{"class", "plot"}}) +
+                                      page::element("figcaption", caption)));
     }
     fs::remove_all(folder);
   }
@@ -276,7 +277,7 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
                  cell_text(row.want) + " in " + names.want + "."});
   }
   page.answer(alone);
-  page.section("Curves", overlays(command, comparison, names, talk));
+  page.figures(overlays(command, comparison, names, talk));
   page.section("What differs", first_table(differing, names));
   constexpr auto folded = page::Page::Shown::folded;
   page.section("All columns that differ", all_tables(comparison, differing, names), folded);

@@ -457,7 +457,7 @@ void draw(const std::string& file, const scene::Scene& scene, const std::string&
   page::Page page(title, "scene");
   const std::size_t end = std::min(text.find("\n\n"), text.size());  // of the sentences
   page.answer(split(text.substr(0, end), '\n'));
-  page.section("Scene", report::scene_view(picture, title));
+  page.beside(report::scene_view(picture, title));
   page.script(report::scene_script());
   page.section("What would be computed", page::element("pre", trimmed(text.substr(end))));
   write_atomically(file, page.html());

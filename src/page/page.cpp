@@ -33,7 +33,12 @@ input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .big span { font-size: .65em; font-weight: 400; } .failure { color: var(--fail); }
 .result { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .result p { margin: .35rem 0; }
-main section:first-child h2 { margin-top: .8rem; }
+main section:first-child h2 { margin-top: .8rem; } .beside > * { margin: 0; }
+@media screen and (min-width: 75rem) { body:has(.beside) { max-width: 84rem; }
+  header:has(.beside) { display: grid; grid-template: auto 1fr / minmax(0, 1fr) minmax(0, 40rem);
+    column-gap: 2rem; } .said, nav { grid-column: 1; } .beside { grid-area: 1 / 2 / 3 / 3; }
+  .beside svg { max-height: calc(100vh - 7rem); } .figures { display: grid; gap: 0 2rem;
+    grid-template-columns: 1fr 1fr; } main p, main li, main pre { max-width: 60rem; } }
 nav ul { list-style: none; padding: 0; margin: .7rem 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
 figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
@@ -66,7 +71,8 @@ section + section > details:first-child { border-top: 1px solid var(--line); }
   .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
   .wide th, .wide td { border: 0; padding: .1rem 0; text-align: left; } .wide .words { min-width: 0; }
   td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } .wide td:empty { display: none; }
-  body { display: flex; flex-direction: column; } main { order: 1; min-width: 0; } nav { order: 2; } footer { order: 3; } }
+  body { display: flex; flex-direction: column; } main { order: 1; min-width: 0; } nav { order: 2; } footer { order: 3; }
+  header { display: contents; } }
 .many thead { display: none; } .many table, .many tr, .many th { display: block; }
 .many td { display: inline-block; margin-right: 1rem; white-space: normal; }
 .many th, .many td { border: 0; padding: .1rem 0; text-align: left; }
@@ -119,20 +125,6 @@ std::string with_prefix(const std::string& svg, const std::string& prefix) {
   return made;
 }
 
-constexpr const char* no_break = "\u00a0";  // a space at which no line ends
-
-// No line ends between a number and its unit, or between `±` and its number.
-std::string unbroken(const std::string& words) {
-  std::string text;
-  for (const char letter : words) {
-    const bool after_digit =
-        !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0;
-    text += letter == ' ' && (after_digit || text.ends_with("±")) ? std::string(no_break)
-                                                                  : std::string(1, letter);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string id_of(const std::string& heading) {
@@ -154,10 +146,10 @@ void Page::answer(const std::vector<std::string>& sentences) { answer_ += paragr
 void Page::headline(const std::string& value, const std::string& error, Tone tone) {
   const bool of_value = error.starts_with("±");
   answer_ += element("p",
-                     text(unbroken(value) + (of_value                ? no_break
-                                             : tone == Tone::failure ? ": "
-                                                                     : " ")) +
-                         element("span", unbroken(error)),
+                     text(kept_together(value) + (of_value                ? "\u00a0"
+                                                  : tone == Tone::failure ? ": "
+                                                                          : " ")) +
+                         element("span", error),
                      {{"class", tone == Tone::failure ? "big failure" : "big"}});
 }
 
@@ -174,6 +166,16 @@ void Page::section(const std::string& heading, const Markup& body, Shown shown) 
       line();
 }
 
+void Page::beside(const Markup& picture) { beside_ = element("div", picture, {{"class", "beside"}}); }
+
+void Page::figures(const std::vector<Markup>& all) {
+  if (all.empty()) return;
+  beside(all.front());
+  Markup more;
+  for (std::size_t i = 1; i < all.size(); ++i) more += all[i];
+  if (!more.empty()) section("More figures", element("div", more, {{"class", "figures"}}));
+}
+
 void Page::script(const std::string& code) { script_ += code; }
 
 std::string Page::html(Files files) const {
@@ -186,10 +188,10 @@ std::string Page::html(Files files) const {
   if (!answer_.empty())
     top += element("div", answer_,
                    {{"class", "result"}, {"role", "region"}, {"aria-label", "The result"}});
+  top = element("div", top, {{"class", "said"}}) + line() + beside_ +
+        element("nav", element("ul", contents_), {{"aria-label", "Contents"}});
   Markup body = element("a", "To the results", {{"class", "skip"}, {"href", "#results"}}) + line() +
-                element("header", top) + line() +
-                element("nav", element("ul", contents_), {{"aria-label", "Contents"}}) + line() +
-                element("main", body_, {{"id", "results"}}) + line() +
+                element("header", top) + line() + element("main", body_, {{"id", "results"}}) + line() +
                 element("footer", std::string("Made by palpate " PALPATE_VERSION ".") +
                                       (files == Files::beside
                                            ? " Everything on this page is in the files beside it."
@@ -226,9 +228,9 @@ std::string class_of(const std::string& picture) {
   return map ? "plot map" : "plot";
 }
 
-Markup all_figures(const WholeFolder& folder,
-                   const std::function<std::string(const std::string&)>& words) {
-  Markup all;
+std::vector<Markup> all_figures(const WholeFolder& folder,
+                                const std::function<std::string(const std::string&)>& words) {
+  std::vector<Markup> all;
   std::vector<std::string> tables;
   for (const HashedFile& file : folder.files()) {
     if (file.path.ends_with(".csv")) tables.push_back(file.path);
@@ -242,15 +244,15 @@ Markup all_figures(const WholeFolder& folder,
       if (script.find("'" + table + "'") != std::string::npos)
         data += text(data.empty() ? " Data: " : ", ") + link(table, table);
     if (!fs::exists(folder.file(picture))) {
-      all += element(
-          "p", text("The figure " + picture + " could not be drawn here. " + description) + data);
+      all.push_back(element(
+          "p", text("The figure " + picture + " could not be drawn here. " + description) + data));
       continue;
     }
     const Markup svg = inline_svg(read_text(folder.file(picture)), name, description);
-    all +=
-        element("figure", element("div", svg, {{"class", class_of(folder.file(picture))}}) +
-                              element("figcaption", text(description) + data + text("; picture: ") +
-                                                        link(picture, picture)));
+    all.push_back(element(
+        "figure", element("div", svg, {{"class", class_of(folder.file(picture))}}) +
+                      element("figcaption", text(kept_together(description)) + data +
+                                                text("; picture: ") + link(picture, picture))));
   }
   return all;
 }

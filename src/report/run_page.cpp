@@ -700,19 +700,20 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   for (const record::CaseRecord& record : records)
     if (!record.answer.verdict.empty())
       page.answer({"Beside the device: " + record.answer.verdict + "."});
-  page.section("Figures", page::all_figures(folder, [&](const std::string& name) {
-                 const auto figure =
-                     std::find_if(shown.figures.begin(), shown.figures.end(),
-                                  [&](const plot::Figure& one) { return one.name == name; });
-                 return figure == shown.figures.end() ? "" : figure_words(*figure);
-               }));
+  const std::vector<Markup> figures = page::all_figures(folder, [&](const std::string& name) {
+    const auto figure = std::find_if(shown.figures.begin(), shown.figures.end(),
+                                     [&](const plot::Figure& one) { return one.name == name; });
+    return figure == shown.figures.end() ? "" : figure_words(*figure);
+  });
+  page.figures(figures);
   if (records.size() > 1 && records.size() <= most_answers)  // the first screen is for the curves
     page.section("Every case", element("div",
                                        page::table("Force, error, model and what is neglected",
                                                    case_table(family, records)),
                                        {{"class", "whole"}}));
   if (!records.empty() && !records.front().picture.faces.empty()) {
-    page.section("Scene", scene_view(records.front().picture, family.title));
+    const Markup scene = scene_view(records.front().picture, family.title);
+    figures.empty() ? page.beside(scene) : page.section("Scene", scene);
     page.script(scene_script());
   }
   page.section("Beside the paper", paper_section(family, records, shown.fits));

@@ -653,7 +653,8 @@ std::string extremes(const SweepColumns& columns, const OutputColumn& output) {
          case_text(columns, at(range.high)) + ".";
 }
 
-// For each output its range, and the factor on which it depends most. The first range is above.
+// For each output its range, and the factor on which it depends most; of the first, whose range is
+// the headline, the cases at its ends.
 std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivity& found) {
   std::vector<std::string> all;
   for (const OutputColumn& output : columns.outputs) {
@@ -667,8 +668,13 @@ std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivit
         strongest = &row;
     if (strongest != nullptr)
       sentence += (sentence.empty() ? "" : ": ") + percent_text(strongest->indices.total.value) +
-                  " of the variance follows `" + strongest->factor + "`";
-    if (!sentence.empty()) all.push_back(sentence + ".");
+                  " of the variance follows " +
+                  within_sentence(plot::key_label(strongest->factor));
+    if (!sentence.empty()) sentence += ".";
+    if (&output == columns.outputs.data())
+      if (const std::string cases = extremes(columns, output); !cases.empty())
+        sentence += (sentence.empty() ? "" : " ") + cases;
+    if (!sentence.empty()) all.push_back(sentence);
   }
   return all;
 }
@@ -697,13 +703,16 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   if (!shown.columns.outputs.empty()) {
     const OutputColumn& first = shown.columns.outputs.front();
     page.headline(range_text(first), shown.answer.error());
-    if (const std::string cases = extremes(shown.columns, first); !cases.empty())
-      page.answer({cases});
+  }
+  std::vector<std::string> of_outputs = sentences(shown.columns, found);
+  if (!of_outputs.empty()) {
+    page.answer({of_outputs.front()});
+    of_outputs.erase(of_outputs.begin());
   }
   page.answer(shown.answer.lines());
-  page.answer(sentences(shown.columns, found));
+  page.answer(of_outputs);
   page.answer({shown.totals});
-  page.section("Figures", page::all_figures(folder, figure_words));
+  page.figures(page::all_figures(folder, figure_words));
   constexpr std::size_t most = 100;
   page::Markup tables;
   if (!found.indices.empty())
