@@ -259,16 +259,17 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
     page.headline("Differs", "in its files, columns or rows");
   } else {
     const compare::WorstRow& row = *worst->worst;
+    const std::string common = compare::common_rows_text(comparison, first->file);
     const auto* got_number = std::get_if<double>(&row.got);
     const auto* want_number = std::get_if<double>(&row.want);
     if (std::isfinite(row.relative))
       page.headline(rounded_text(100.0 * row.relative, 3) + " %",
-                    "largest difference of " + worst->name);
+                    "largest difference of " + worst->name + common);
     else if (got_number != nullptr && want_number != nullptr)  // where 0 is wanted
       page.headline(rounded_text(std::abs(*got_number - *want_number), 3),
-                    "largest difference of " + worst->name);
+                    "largest difference of " + worst->name + common);
     else
-      page.headline("Differs", "in " + worst->name);
+      page.headline("Differs", "in " + worst->name + common);
     page.answer({std::to_string(differing.size()) + " of " + std::to_string(all) +
                  " columns differ by more than the tolerances, `" + worst->name + "` in " +
                  count_text(worst->differing, "row") + "; most" +

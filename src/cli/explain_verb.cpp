@@ -564,7 +564,8 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
   const std::string text = Explanation(scenes[shown], expected[shown])
                                .text(several ? scenes[shown].name : "", family.title);
   if (!command.picture.empty())
-    draw(command.picture, scenes[shown], family.title,
+    draw(command.picture, scenes[shown],
+         family.title + (several ? ", case " + scenes[shown].name : ""),
          Explanation(scenes[shown], expected[shown]).text("", family.title));
   if (talk.json()) {
     for (std::size_t i = 0; i < scenes.size(); ++i)

@@ -570,6 +570,15 @@ std::vector<Item> differences(const FolderComparison& comparison) {
   return all;
 }
 
+std::string common_rows_text(const FolderComparison& comparison, const std::string& file) {
+  for (const FileComparison& one : comparison.files)
+    if (const auto& [got, want] = std::pair(one.comparison.rows_got, one.comparison.rows_want);
+        one.file == file && !one.comparison.rows_equal())
+      return " over the first " + std::to_string(std::min(got, want)) + " of " +
+             count_text(std::max(got, want), "row");
+  return "";
+}
+
 std::string headline(const FolderComparison& comparison) {
   std::size_t columns = 0;
   for (const FileComparison& file : comparison.files) columns += file.comparison.columns.size();
@@ -588,6 +597,7 @@ std::string headline(const FolderComparison& comparison) {
   if (first.column != nullptr && first.column->worst &&
       std::isfinite(first.column->worst->relative))
     text += " by " + percent_text(first.column->worst->relative);
+  if (first.column != nullptr) text += common_rows_text(comparison, first.file);
   return text;
 }
 

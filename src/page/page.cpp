@@ -44,7 +44,7 @@ figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
 figure svg { display: block; width: 100%; max-width: 40rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
-  #scene-still text { font-size: 1.8em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
+  #scene-still text { font-size: 1.8em; } #scene-still .names text { font-size: 1.5em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
 #scene-still .back { fill: none; } #scene-still .ink { fill: var(--ink); }
 #scene-still .ink[stroke] { stroke: var(--ink); } #scene-still .border { stroke: var(--soft); }
 #scene-still .halo { fill: var(--ink); stroke: var(--back); }
@@ -64,7 +64,7 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards figure svg { max-height: 22rem; } .cards .plot text { font-size: 1.22em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards figure svg { max-height: 27rem; } .cards .plot text { font-size: 1.22em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
@@ -144,13 +144,10 @@ Page::Page(std::string title, std::string kind)
 void Page::answer(const std::vector<std::string>& sentences) { answer_ += paragraphs(sentences); }
 
 void Page::headline(const std::string& value, const std::string& error, Tone tone) {
-  const bool of_value = error.starts_with("±");
-  answer_ += element("p",
-                     text(kept_together(value) + (of_value                ? "\u00a0"
-                                                  : tone == Tone::failure ? ": "
-                                                                          : " ")) +
-                         element("span", error),
-                     {{"class", tone == Tone::failure ? "big failure" : "big"}});
+  const char* between = error.starts_with("±") ? "\u00a0" : tone == Tone::failure ? ": " : " ";
+  Markup words = text(kept_together(value) + (error.empty() ? "" : between));
+  if (!error.empty()) words += element("span", error);
+  answer_ += element("p", words, {{"class", tone == Tone::failure ? "big failure" : "big"}});
 }
 
 void Page::section(const std::string& heading, const Markup& body, Shown shown) {

@@ -27,6 +27,7 @@ struct Series {
   std::optional<std::size_t> colour = {};  // of line_colours; none: its place in the list
   std::vector<FittedCurve> fits = {};
   std::optional<int> step = {};      // rows of this step only
+  std::optional<double> x_from = {};  // rows from this x on only
   bool dashed = false;               // what another series is compared with
   std::optional<double> shade = {};  // with a colour bar: the value that gives the colour; such
                                      // series have one legend entry per label

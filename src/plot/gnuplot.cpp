@@ -248,6 +248,10 @@ std::string x_expression(const Series& series) {
     if (!condition.empty()) condition += " && ";
     condition += "column('step') == " + std::to_string(*series.step);
   }
+  if (series.x_from) {
+    if (!condition.empty()) condition += " && ";
+    condition += x + " >= " + number_text(*series.x_from);
+  }
   return condition.empty() ? "(" + x + ")" : "(" + condition + " ? " + x + " : NaN)";
 }
 
@@ -264,7 +268,7 @@ struct KeptRows {
     for (const Series& one : figure.series) {
       const bool plain = std::all_of(one.case_name.begin(), one.case_name.end(),
                                      [](char c) { return c >= ' ' && c <= '~' && c != '|'; });
-      if (!plain || one.case_name.empty() || one.step || one.csv_file != first.csv_file ||
+      if (!plain || one.case_name.empty() || one.step || one.x_from || one.csv_file != first.csv_file ||
           one.column != first.column || one.x_column != first.x_column ||
           one.y_column != first.y_column)
         return;

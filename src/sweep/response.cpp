@@ -434,7 +434,7 @@ std::string axis(const std::string& name, const Shown& what) {
   return (what.logarithmic ? plot::gnuplot_logarithmic(name, from, to)
                            : plot::gnuplot_linear(name)) +
          "set " + name + "range [" + rounded_text(from, 6) + ":" + rounded_text(to, 6) + "]\nset " +
-         name + "label " + plot::gnuplot_quoted(what.label) + "\n";
+         name + "label " + plot::gnuplot_quoted(what.label) + (name == "cb" ? " offset 1,0\n" : "\n");
 }
 
 std::string panel(const Shown& x, const Shown& y, const Shown& colour, const std::string& output,
