@@ -192,7 +192,8 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   EXPECT_FALSE(has(live.ended.err, "Peak force")) << live.ended.err;
   const std::string page = read_file(live.folder() / "out/device_stand/report.html");
   EXPECT_TRUE(has(page, "Forces over time, without the model"));
-  EXPECT_TRUE(has(page, "Largest measured force: 0."));
+  EXPECT_TRUE(has(page, "<p class=\"big\">Largest measured force 0."));
+  EXPECT_FALSE(has(page, "Model, error and what is neglected"));
   EXPECT_TRUE(has(page, "A live run follows its device"));
   for (const char* of_a_model : {"no result", "Peak force", "Neglected"})
     EXPECT_FALSE(has(page, of_a_model)) << of_a_model;

@@ -119,6 +119,30 @@ TEST(NewScenario, OfEveryKindRunsAsItIs) {
   EXPECT_EQ(palpate(folder.path(), {"new", "press", "-"}).out, scenario::starters()[0].text);
 }
 
+// A program without its examples, such as one that was copied alone, promises what it can do.
+TEST(NewScenario, IsTheBeginningWhereThereAreNoExamples) {
+  const TemporaryFolder folder;
+  const fs::path alone = folder / "bin/palpate";
+  fs::create_directories(alone.parent_path());
+  fs::copy_file(PALPATE_PROGRAM, alone);
+  const auto ran = [&](const std::vector<std::string>& words) {
+    return run_program(
+        {.arguments = words, .folder = folder.path(), .program = alone.string()});
+  };
+  const std::string welcome = ran({}).out;
+  EXPECT_EQ(welcome.find("quickstart"), std::string::npos) << welcome;
+  EXPECT_LT(welcome.find("palpate new press "), welcome.find("palpate run press.toml "));
+  for (const auto& [name, kind] : {std::pair("quickstart", "press"), std::pair("creep", "creep")}) {
+    const Ended ended = ran({"run", name});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(says(ended, std::string(name) +
+                                ": is neither a file nor an installed example; `palpate new " +
+                                kind + "` writes " + kind + ".toml, a scenario to begin with"))
+        << ended.err;
+  }
+  EXPECT_NE(palpate(folder.path(), {}).out.find("palpate run quickstart"), std::string::npos);
+}
+
 TEST(DryRun, SaysWhatWouldBeComputedAndWritesNothing) {
   const TemporaryFolder folder;
   (void)palpate(folder.path(), {"new", "sweep"});
