@@ -48,7 +48,8 @@ std::string kept_together(std::string_view words) {
       std::string_view next = words.substr(at + 1);
       next = next.substr(0, next.find_first_of(" ,;:)"));
       if (next.ends_with('.')) next.remove_suffix(1);
-      return next == "%" || next == "µs" || unit_factor(next).has_value();
+      const std::string_view first = next.substr(0, next.find_first_of("/^_"));  // of `N/mm^n`
+      return next == "%" || next == "µs" || unit_factor(next) || unit_factor(first);
     };
     const bool after_number =
         !kept.empty() && std::isdigit(static_cast<unsigned char>(kept.back())) != 0;

@@ -191,7 +191,7 @@ struct Legend {
 };
 
 std::string frame(const Figure& figure, const Legend& legend) {
-  std::string text = "set title " + gnuplot_quoted(figure.title) + "\nset xlabel " +
+  std::string text = "set title " + gnuplot_title(figure.title) + "\nset xlabel " +
                      gnuplot_quoted(figure.x_label) + "\nset ylabel " +
                      gnuplot_quoted(figure.y_label) + "\nset tmargin 2.5\nset samples 500\n";
   if (legend.lines == 0)

@@ -294,7 +294,9 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
     return !record.contact.empty() || !record.strain.empty();
   });
   std::vector<plot::Figure> figures;
-  const bool gauge_alone = !has_rows && fs::exists(folder_.file("force_time.csv"));
+  const std::string readings = folder_.file("force_time.csv");
+  const bool gauge_alone =
+      !has_rows && fs::exists(readings) && record::read_csv(readings).rows.size() > 1;
   if (family_->base.output.figures && (has_rows || gauge_alone)) {
     plot::DrawOptions options;
     options.formats = picture_formats(family_->base.output);

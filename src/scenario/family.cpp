@@ -438,7 +438,7 @@ std::string file_of(const std::string& given) {
   const fs::path path(given);
   std::error_code error;
   if (found != given || given == "-" || path.has_parent_path() || path.has_extension() ||
-      fs::exists(path, error))
+      fs::exists(path, error) || error)
     return found;
   std::string kind = "press";
   for (const Starter& starter : starters())

@@ -358,7 +358,7 @@ plot::Sheet response_sheet(const Response& response) {
   const bool both = response.is_map();
   std::string text = plot::gnuplot_head(response.name, {.height = both ? 720 : 400}) +
                      "set xlabel offset 0,0.6\nset ylabel offset 1,0\n" + plot::gnuplot_palette();
-  const std::string title = plot::gnuplot_quoted(response.title);
+  const std::string title = plot::gnuplot_title(response.title);
   const std::string label =
       "set xlabel " + plot::gnuplot_quoted(factor_label(response.across)) + "\n";
   if (both) {
@@ -484,7 +484,7 @@ std::optional<plot::Sheet> points_sheet(const SweepColumns& columns, const Outpu
                      std::to_string(panels.size()) + ",1 margins screen 0.14,0.8," +
                      rounded_text(72.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
                      " spacing screen 0," + rounded_text(75.0 / height, 3) + " title " +
-                     plot::gnuplot_quoted(whole) + " font ',15'\n";
+                     plot::gnuplot_title(whole) + "\n";
   for (const std::string& one : panels) text += one;
   return plot::Sheet{name, text + "\nunset multiplot\n", {points_file}};
 }
@@ -574,7 +574,7 @@ std::optional<plot::Sheet> sensitivity_sheet(const Sensitivity& found, const std
       std::to_string(outputs.size()) + ",1 margins screen " + rounded_text(margin, 3) + ",0.965," +
       rounded_text(76.0 / height, 3) + "," + rounded_text(1.0 - 62.0 / height, 3) +
       " spacing screen 0.1," + rounded_text(32.0 / height, 3) + " title " +
-      plot::gnuplot_quoted(title + ": shares of the variance") + " font ',15'\n";
+      plot::gnuplot_title(title + ": shares of the variance") + "\n";
   for (const auto& rows : outputs) {
     std::vector<std::string> tics;
     for (std::size_t i = 0; i < rows.size(); ++i)

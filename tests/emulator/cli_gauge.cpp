@@ -235,6 +235,7 @@ TEST(GaugeRun, SaysWhatItWaitsFor) {
                                                 "--device", link_of(gauge, emulator), "--force",
                                                 "--clock", "virtual", "--seconds", "10"});
     EXPECT_EQ(ended.code, 6) << ended.err;
+    EXPECT_FALSE(has(ended.err, "was not drawn")) << ended.err;
     const auto waiting = ended.err.find("waiting for the force to rise by ");
     const auto never = ended.err.find("the force never rose by ");
     ASSERT_LT(waiting, never) << ended.err;

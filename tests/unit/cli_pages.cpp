@@ -50,7 +50,7 @@ TEST(Pages, AnIndexSaysHowLongARunTook) {
   write_file(folder / "out/b/report.html", "<title>b – palpate sweep</title>\n");
   const Ended opened = palpate(folder.path(), {"open", "out"});
   ASSERT_EQ(opened.code, 0) << opened.err;
-  const std::string index = read_file(folder / "out/index.html");
+  const std::string index = read_page(folder / "out/index.html");
   EXPECT_NE(index.find(" It took 2.5 s."), std::string::npos) << index;
   EXPECT_EQ(index.find("It took"), index.rfind("It took")) << "b has no times";
 }

@@ -49,7 +49,7 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
 // Keys, models and parameters are not words of a sentence.
 TEST(Html, NamesKeepTheirCaseAtTheStartOfASentence) {
   EXPECT_EQ(paragraphs({"tissue.young_modulus 60 kPa"}).html(),
-            "<p>tissue.young_modulus 60 kPa.</p>");
+            "<p>tissue.young_modulus 60\u00a0kPa.</p>");
   EXPECT_EQ(paragraphs({"coupled_springs is taken"}).html(), "<p>coupled_springs is taken.</p>");
   EXPECT_EQ(paragraphs({"a, logarithmic fit"}).html(), "<p>a, logarithmic fit.</p>");
   EXPECT_EQ(paragraphs({"a press is deep."}).html(), "<p>A press is deep.</p>");
@@ -89,6 +89,7 @@ TEST(Page, TheHeadlineKeepsItsNumbersTogether) {
 TEST(Page, ANumberKeepsItsUnitOnItsLine) {
   EXPECT_EQ(kept_together("radius 7 mm, 3.5 kPa; 40 % of 2 N (5 s)."),
             "radius 7\u00a0mm, 3.5\u00a0kPa; 40\u00a0% of 2\u00a0N (5\u00a0s).");
+  EXPECT_EQ(kept_together("-95 1/m, 3 N/mm^n"), "-95\u00a01/m, 3\u00a0N/mm^n");
   EXPECT_EQ(kept_together("3 of 4 cases at 2 places"), "3 of 4 cases at 2 places");
   EXPECT_EQ(paragraphs({"set `to = 7 mm` for 7 mm"}).html(),
             "<p>Set <code>to = 7 mm</code> for 7\u00a0mm.</p>");
@@ -174,7 +175,7 @@ TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {
   EXPECT_NE(made().find("<a href=\"#figures\">Figures</a>"), std::string::npos);
   EXPECT_EQ(made().find("Empty"), std::string::npos);
   EXPECT_EQ(summary_of(made()).title, "A & B – palpate run");
-  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4 N (h).");
+  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4\u00a0N (h).");
   EXPECT_EQ(summary_of(made()).paper, "");
   EXPECT_EQ(summary_of("<p>another page</p>").title, "");
 }

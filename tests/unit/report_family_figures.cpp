@@ -49,7 +49,7 @@ TEST(FamilyFigures, ASlideIsDrawnAlongItsWay) {
   const auto travel = drawn("force");
   ASSERT_EQ(travel.size(), 2U);
   EXPECT_EQ(travel[0].name, "figure_displacement_slide");
-  EXPECT_EQ(travel[1].series.at(0).y_column, "travel_mm");
+  EXPECT_EQ(travel[0].series.at(0).y_column, "travel_mm");
 }
 
 TEST(FamilyFigures, AHoldIsDrawnOverTime) {
