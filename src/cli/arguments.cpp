@@ -504,7 +504,8 @@ std::optional<std::string> renamed(const std::vector<std::string>& given) {
 std::string welcome() {
   const std::vector<std::string> examples = scenario::examples();
   const bool installed = std::ranges::find(examples, "quickstart") != examples.end();
-  const std::string made = "  palpate new press          a commented scenario of your own, press.toml\n";
+  const std::string made =
+      "  palpate new press          a commented scenario of your own, press.toml\n";
   const std::string first = ", with a page of its results\n";
   return "palpate presses a virtual finger into virtual soft tissue, and says the force and its "
          "error.\n\n" +

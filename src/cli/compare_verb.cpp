@@ -193,8 +193,9 @@ std::vector<Item> columns_that_differ(const compare::FolderComparison& compariso
 }
 
 // The overlays of all files, drawn in a folder beside the page that is gone afterwards.
-std::vector<page::Markup> overlays(const Compare& command, const compare::FolderComparison& comparison,
-                      const Names& names, const Talk& talk) {
+std::vector<page::Markup> overlays(const Compare& command,
+                                   const compare::FolderComparison& comparison, const Names& names,
+                                   const Talk& talk) {
   const bool folders = fs::is_directory(command.want);
   const std::string folder = command.report + ".partial";
   std::vector<page::Markup> all;
@@ -221,9 +222,8 @@ std::vector<page::Markup> overlays(const Compare& command, const compare::Folder
     if (fs::exists(picture)) {
       const page::Markup svg =
           page::inline_svg(read_text(picture.string()), page::id_of(file.file), caption);
-      all.push_back(
-          page::element("figure", page::element("div", svg, {{"class", "plot"}}) +
-                                      page::element("figcaption", caption)));
+      all.push_back(page::element("figure", page::element("div", svg, {{"class", "plot"}}) +
+                                                page::element("figcaption", caption)));
     }
     fs::remove_all(folder);
   }

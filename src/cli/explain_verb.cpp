@@ -407,9 +407,10 @@ class Explanation {
       std::string text = std::string("  ") + (forecast.model == model ? "> " : "  ") +
                          scenario::traits(forecast.model).word;
       text.resize(22, ' ');
-      line(text + (forecast.cannot.empty() ? "error " + error_text(forecast.known(mesh_error, model)) +
-                                                 (on_mesh ? " on this mesh" : "")
-                                           : "cannot: " + forecast.cannot));
+      line(text + (forecast.cannot.empty()
+                       ? "error " + error_text(forecast.known(mesh_error, model)) +
+                             (on_mesh ? " on this mesh" : "")
+                       : "cannot: " + forecast.cannot));
     }
     if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty())
       line("  note         " + text);

@@ -163,7 +163,9 @@ void Page::section(const std::string& heading, const Markup& body, Shown shown) 
       line();
 }
 
-void Page::beside(const Markup& picture) { beside_ = element("div", picture, {{"class", "beside"}}); }
+void Page::beside(const Markup& picture) {
+  beside_ = element("div", picture, {{"class", "beside"}});
+}
 
 void Page::figures(const std::vector<Markup>& all) {
   if (all.empty()) return;
@@ -187,12 +189,13 @@ std::string Page::html(Files files) const {
                    {{"class", "result"}, {"role", "region"}, {"aria-label", "The result"}});
   top = element("div", top, {{"class", "said"}}) + line() + beside_ +
         element("nav", element("ul", contents_), {{"aria-label", "Contents"}});
-  Markup body = element("a", "To the results", {{"class", "skip"}, {"href", "#results"}}) + line() +
-                element("header", top) + line() + element("main", body_, {{"id", "results"}}) + line() +
-                element("footer", std::string("Made by palpate " PALPATE_VERSION ".") +
-                                      (files == Files::beside
-                                           ? " Everything on this page is in the files beside it."
-                                           : ""));
+  Markup body =
+      element("a", "To the results", {{"class", "skip"}, {"href", "#results"}}) + line() +
+      element("header", top) + line() + element("main", body_, {{"id", "results"}}) + line() +
+      element("footer",
+              std::string("Made by palpate " PALPATE_VERSION ".") +
+                  (files == Files::beside ? " Everything on this page is in the files beside it."
+                                          : ""));
   if (!script_.empty()) body += element("script", Markup::ready(script_));
   return "<!DOCTYPE html>\n" +
          element("html", element("head", head) + line() + element("body", body), {{"lang", "en"}})

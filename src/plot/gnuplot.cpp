@@ -268,9 +268,9 @@ struct KeptRows {
     for (const Series& one : figure.series) {
       const bool plain = std::all_of(one.case_name.begin(), one.case_name.end(),
                                      [](char c) { return c >= ' ' && c <= '~' && c != '|'; });
-      if (!plain || one.case_name.empty() || one.step || one.x_from || one.csv_file != first.csv_file ||
-          one.column != first.column || one.x_column != first.x_column ||
-          one.y_column != first.y_column)
+      if (!plain || one.case_name.empty() || one.step || one.x_from ||
+          one.csv_file != first.csv_file || one.column != first.column ||
+          one.x_column != first.x_column || one.y_column != first.y_column)
         return;
       all += one.case_name + "|";
     }

@@ -48,7 +48,8 @@ std::string gnuplot_quoted(const std::string& text) {
 std::string gnuplot_title(const std::string& title) {
   constexpr double most = 60.0;  // letters in the usual size
   if (static_cast<double>(title.size()) <= most) return gnuplot_quoted(title);
-  return gnuplot_quoted(title) + " font '," + rounded_text(15.0 * most / static_cast<double>(title.size()), 3) + "'";
+  return gnuplot_quoted(title) + " font '," +
+         rounded_text(15.0 * most / static_cast<double>(title.size()), 3) + "'";
 }
 
 std::string key_label(std::string key) {

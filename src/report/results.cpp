@@ -300,8 +300,8 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   if (family_->base.output.figures && (has_rows || gauge_alone)) {
     plot::DrawOptions options;
     options.formats = picture_formats(family_->base.output);
-    figures = has_rows ? family_figures(*family_, records, fits)
-                       : std::vector{gauge_figure(*family_)};
+    figures =
+        has_rows ? family_figures(*family_, records, fits) : std::vector{gauge_figure(*family_)};
     for (const plot::Figure& figure : figures)
       plot::draw(plot::sheet_of(figure), folder_, warnings, options);
   }

@@ -434,7 +434,8 @@ std::string axis(const std::string& name, const Shown& what) {
   return (what.logarithmic ? plot::gnuplot_logarithmic(name, from, to)
                            : plot::gnuplot_linear(name)) +
          "set " + name + "range [" + rounded_text(from, 6) + ":" + rounded_text(to, 6) + "]\nset " +
-         name + "label " + plot::gnuplot_quoted(what.label) + (name == "cb" ? " offset 1,0\n" : "\n");
+         name + "label " + plot::gnuplot_quoted(what.label) +
+         (name == "cb" ? " offset 1,0\n" : "\n");
 }
 
 std::string panel(const Shown& x, const Shown& y, const Shown& colour, const std::string& output,
@@ -668,8 +669,7 @@ std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivit
         strongest = &row;
     if (strongest != nullptr)
       sentence += (sentence.empty() ? "" : ": ") + percent_text(strongest->indices.total.value) +
-                  " of the variance follows " +
-                  within_sentence(plot::key_label(strongest->factor));
+                  " of the variance follows " + within_sentence(plot::key_label(strongest->factor));
     if (!sentence.empty()) sentence += ".";
     if (&output == columns.outputs.data())
       if (const std::string cases = extremes(columns, output); !cases.empty())

@@ -126,8 +126,7 @@ TEST(NewScenario, IsTheBeginningWhereThereAreNoExamples) {
   fs::create_directories(alone.parent_path());
   fs::copy_file(PALPATE_PROGRAM, alone);
   const auto ran = [&](const std::vector<std::string>& words) {
-    return run_program(
-        {.arguments = words, .folder = folder.path(), .program = alone.string()});
+    return run_program({.arguments = words, .folder = folder.path(), .program = alone.string()});
   };
   const std::string welcome = ran({}).out;
   EXPECT_EQ(welcome.find("quickstart"), std::string::npos) << welcome;

@@ -83,7 +83,8 @@ TEST_F(ReportPages, TheInspectorFindsFaults) {
   write_file(
       folder_ / "bad.html",
       "<!DOCTYPE html><html lang=en><body><h1 id=a>x</h1><main id=a style=\"color:#aaaaaa;"
-      "background:#ffffff\">pale 7 mm<p class=result style=\"height:901px\"></p><a href=\"#b\">b</a><a href=c.csv>c</a><img src=d.png>"
+      "background:#ffffff\">pale 7 mm<p class=result style=\"height:901px\"></p><a "
+      "href=\"#b\">b</a><a href=c.csv>c</a><img src=d.png>"
       "<div style=\"width:500px\">wide</div><div class=wide style=\"width:20px;overflow:auto\">"
       "abcdefghijkl</div><div class=plot><svg aria-label=x><path d=\"M0 0L9 9\" "
       "stroke=\"#b4b4b4\"/><text y=9>under</text><text y=9>over</text></svg></div>"

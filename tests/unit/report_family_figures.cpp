@@ -80,8 +80,8 @@ TEST(FamilyFigures, TheDeviceIsDrawnBesideTheModel) {
 
 // The way to the surface, which may be twenty times as long, leaves the curve no room.
 TEST(FamilyFigures, ALiveCurveBeginsAtTheContact) {
-  const auto family = scenario::parse(
-      "schema = 1\n" + indent + "[[step]]\nkind = \"hold\"\n", "test.toml", {});
+  const auto family =
+      scenario::parse("schema = 1\n" + indent + "[[step]]\nkind = \"hold\"\n", "test.toml", {});
   record::CaseRecord record;
   record.name = "test";
   record.contact.resize(2);

@@ -179,8 +179,7 @@ TEST(Choose, AMeshIsKnownToItsOwnModelsOnly) {
   ASSERT_TRUE(solid != nullptr && springs != nullptr);
   EXPECT_EQ(solid->known(1e-3, Model::coupled_springs), solid->error);
   EXPECT_EQ(solid->known(1e-3, Model::solid), solid->error - solid->of_mesh + 1e-3);
-  EXPECT_EQ(springs->known(1e-3, Model::coupled_springs),
-            springs->error - springs->of_mesh + 1e-3);
+  EXPECT_EQ(springs->known(1e-3, Model::coupled_springs), springs->error - springs->of_mesh + 1e-3);
   EXPECT_EQ(springs->known(1e-3, Model::solid), springs->error);
   const Choice named =
       choose(read(press + "[solver]\nmodel = \"hertz\"\n[contact]\ndepth = \"hertz\"\n"));
