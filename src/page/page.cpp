@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <sstream>
 #include <string_view>
 
 #include "base/text.h"
@@ -167,12 +168,30 @@ void Page::beside(const Markup& picture) {
   beside_ = element("div", picture, {{"class", "beside"}});
 }
 
+namespace {
+
+// Whether a figure would be too small to read where it is seen whole, as one of many panels.
+bool is_tall(const Markup& figure) {
+  constexpr double most = 1.6;  // heights a width: of letters of 12 px 9 are left in 900 px
+  const std::string word = "viewBox=\"";
+  const std::size_t at = figure.html().find(word);
+  if (at == std::string::npos) return false;
+  std::istringstream box(figure.html().substr(at + word.size(), 60));
+  double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
+  box >> x >> y >> width >> height;
+  return height > most * width;
+}
+
+}  // namespace
+
 void Page::figures(const std::vector<Markup>& all) {
   if (all.empty()) return;
-  beside(all.front());
+  const bool below = is_tall(all.front());
+  if (!below) beside(all.front());
   Markup more;
-  for (std::size_t i = 1; i < all.size(); ++i) more += all[i];
-  if (!more.empty()) section("More figures", element("div", more, {{"class", "figures"}}));
+  for (std::size_t i = below ? 0 : 1; i < all.size(); ++i) more += all[i];
+  if (!more.empty())
+    section(below ? "Figures" : "More figures", element("div", more, {{"class", "figures"}}));
 }
 
 void Page::script(const std::string& code) { script_ += code; }

@@ -165,6 +165,14 @@ TEST_F(CompareVerb, says_over_which_rows_the_difference_is) {
             "50 % largest difference of force_N over the first 2 of 3 rows");
 }
 
+// The place of the worst row has six digits; the JSON has all of them.
+TEST_F(CompareVerb, tells_a_place_in_six_digits) {
+  const std::string place = "time_s,force_N\n0.2990033222591362,";
+  const Ended ended = compare(place + "1\n", place + "2\n");
+  EXPECT_NE(ended.out.find("row 1: time_s 0.299003, got 1, want 2,"), std::string::npos)
+      << ended.out;
+}
+
 TEST_F(CompareVerb, what_is_no_number) {
   expect(compare("a\nnan\ninf\n", "a\nnan\ninf\n"), 0, "equal: 1 column\n");
   const std::string wide = "[default]\nrel = 1e9\nabs = 1e9\n";

@@ -116,6 +116,12 @@ TEST(Page, TheFirstFigureStandsBesideTheAnswer) {
   EXPECT_NE(two.find("<div class=\"figures\">second</div>"), std::string::npos);
   EXPECT_NE(two.find("<a href=\"#more-figures\">"), std::string::npos);
   EXPECT_EQ(made({}).find("class=\"beside\""), std::string::npos);
+  const auto picture = [&](const char* height) {
+    return made({Markup::ready(std::string("<svg viewBox=\"0 0 640 ") + height + "\"></svg>")});
+  };
+  EXPECT_NE(picture("1000").find("class=\"beside\""), std::string::npos);
+  EXPECT_EQ(picture("1100").find("class=\"beside\""), std::string::npos) << "too small to read";
+  EXPECT_NE(picture("1100").find("<h2 id=\"figures\">"), std::string::npos);
 }
 
 // A comparison's page stands alone; that of a run stands beside its tables.
