@@ -140,7 +140,7 @@ function look(page, width, frame) {
     const box = s.getBoundingClientRect();
     if (!box.width || s.closest("details")) continue;
     if (box.right > width) say(page, "has a figure that is cut at " + width + " px");
-    for (const t of s.querySelectorAll("text")) {
+    for (const t of view.getComputedStyle(s).overflow === "visible" ? [] : s.querySelectorAll("text")) {
       const b = t.getBoundingClientRect();
       if (b.width && t.checkVisibility() && (b.left < box.left - 1 || b.right > box.right + 1))
         say(page, "has " + t.textContent.trim() + " beyond the edge of a figure at " + width + " px");

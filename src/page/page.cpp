@@ -65,7 +65,7 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards figure svg { max-height: 27rem; } .cards .plot text { font-size: 1.22em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards figure svg { max-height: 27rem; } .cards .plot text { font-size: 1.22em; } .cards .plot svg { overflow: visible; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }

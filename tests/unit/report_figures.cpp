@@ -286,7 +286,7 @@ TEST(FittedCurve, IsWhatTheFitSays) {
 }
 
 // Sixty letters fit a picture of the width of a telephone; more of them are smaller.
-TEST(Gnuplot, ALongTitleFits) {
+TEST(GnuplotTitle, FitsWhereItIsLong) {
   EXPECT_EQ(plot::gnuplot_title("Skin"), "'Skin'");
   const std::string title(90, 'a');
   EXPECT_EQ(plot::gnuplot_title(title), "'" + title + "' font ',10'");
