@@ -115,6 +115,8 @@ function look(page, width, frame) {
   all("details").forEach(e => e.open = true);
   figures(page, view, all);
   crowded(page, width, all);
+  if (width === 1400) for (const e of all(".beside, .result"))
+    if (e.getBoundingClientRect().bottom > 900) say(page, "has its " + e.className + " beyond the first screen");
   const wide = d.documentElement.scrollWidth;
   if (wide > width) say(page, "is " + wide + " px wide in a window of " + width);
   const ids = all("[id]").map(e => e.id);
@@ -138,6 +140,11 @@ function look(page, width, frame) {
     const box = s.getBoundingClientRect();
     if (!box.width || s.closest("details")) continue;
     if (box.right > width) say(page, "has a figure that is cut at " + width + " px");
+    for (const t of view.getComputedStyle(s).overflow === "visible" ? [] : s.querySelectorAll("text")) {
+      const b = t.getBoundingClientRect();
+      if (b.width && t.checkVisibility() && (b.left < box.left - 1 || b.right > box.right + 1))
+        say(page, "has " + t.textContent.trim() + " beyond the edge of a figure at " + width + " px");
+    }
     const sizes = [...s.querySelectorAll("text")].map(t => parseFloat(view.getComputedStyle(t).fontSize) *
       (t.getScreenCTM() ? Math.hypot(t.getScreenCTM().a, t.getScreenCTM().b) : 0)).filter(x => x > 0);
     if (s.closest(".plot") && sizes.length && Math.min(...sizes) < 7)
@@ -153,6 +160,8 @@ function look(page, width, frame) {
   for (let node; (node = walk.nextNode());) {
     const e = node.parentElement;
     if (!node.data.trim() || e.closest("svg,script,style") || !e.offsetParent) continue;
+    const parted = node.data.match(/[0-9] (%|mm|N|kPa|s|ms|Pa|1\/m)(?![A-Za-z0-9])/);
+    if (parted && !e.closest("pre,code")) say(page, "may part a number from its unit in " + parted[0]);
     const seen = ratio(light(parts(view.getComputedStyle(e).color)), light(ground(e, view)));
     if (seen < 4.5) say(page, "has a contrast of " + seen.toFixed(2) + " in " + node.data.slice(0, 30));
   }
@@ -161,7 +170,7 @@ function look(page, width, frame) {
 (async () => {
   for (const page of pages) for (const width of [360, 390, 1400, paper]) {
     const frame = document.createElement("iframe");
-    frame.style.width = width + "px"; frame.style.height = "800px"; frame.style.border = "0";
+    frame.style.width = width + "px"; frame.style.height = "900px"; frame.style.border = "0";
     document.body.append(frame);
     await new Promise(go => { frame.onload = go; frame.src = page; });
     if (width === paper) print(page, frame);

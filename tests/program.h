@@ -134,9 +134,19 @@ inline std::string project_file(const std::string& name) {
   return std::string(PALPATE_SOURCE_DIR) + "/" + name;
 }
 
-// The number with which a page begins, and what stands beside it, with plain spaces.
+// A page with plain spaces, also between a number and its unit, where no line may end.
+inline std::string read_page(const fs::path& page) {
+  std::string html = read_file(page), plain;
+  for (std::size_t at = 0, next = 0; at < html.size(); at = next + 2) {
+    next = std::min(html.find("\u00a0", at), html.size());
+    plain += html.substr(at, next - at) + (next < html.size() ? " " : "");
+  }
+  return plain;
+}
+
+// The number with which a page begins, and what stands beside it.
 inline std::string headline_of(const fs::path& page) {
-  const std::string html = read_file(page), begin = "<p class=\"big\">";
+  const std::string html = read_page(page), begin = "<p class=\"big";
   const std::size_t from = html.find(begin);
   if (from == std::string::npos || html.find("<section") < from) return "";
   std::string words;
@@ -146,8 +156,6 @@ inline std::string headline_of(const fs::path& page) {
     if (!tag) words += html[at];
     if (html[at] == '>') tag = false;
   }
-  for (std::size_t at = words.find("\u00a0"); at != std::string::npos; at = words.find("\u00a0"))
-    words.replace(at, 2, " ");
   return words;
 }
 

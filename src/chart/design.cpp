@@ -336,12 +336,12 @@ Asked parsed(const std::string& path, const std::string& text, const Settings& s
 }  // namespace
 
 Asked read_asked(const std::string& path, const Settings& settings) {
-  const std::string found = scenario::find(path);
+  const std::string found = scenario::file_of(path);
   return parsed(found, read_text(found), settings);
 }
 
 Asked read_for_chart(const std::string& path, const Settings& settings) {
-  const std::string found = scenario::find(path);
+  const std::string found = scenario::file_of(path);
   return read_for_chart(found, read_text(found), settings);
 }
 

@@ -191,7 +191,7 @@ class Speaker {
     return (verdict_.error[i] <= verdict_.floor ? "at most " : "") + percent(verdict_.error[i]);
   }
   [[nodiscard]] std::string cost(std::size_t i) const {
-    return rounded(verdict_.cost[i]) + " us per ms";
+    return rounded(verdict_.cost[i]) + " µs per ms";
   }
   [[nodiscard]] std::string named(std::size_t i) const {
     return "`" + name(i) + "` (" + error(i) + ", " + cost(i) + ")";
@@ -278,8 +278,8 @@ class Speaker {
     for (const std::size_t i : verdict_.front)
       if (verdict_.cost[i] <= real_time_cost) best = i;
     if (!best)
-      return "No configuration runs in real time: each takes more than 1000 us per ms.\n\n";
-    return "In real time (1000 us per ms) the most accurate is " + named(*best) + ": " +
+      return "No configuration runs in real time: each takes more than 1000 µs per ms.\n\n";
+    return "In real time (1000 µs per ms) the most accurate is " + named(*best) + ": " +
            how(*best) + ".\n\n";
   }
 

@@ -500,12 +500,19 @@ std::optional<std::string> renamed(const std::vector<std::string>& given) {
   return std::nullopt;
 }
 
-constexpr const char* welcome =
-    "palpate presses a virtual finger into virtual soft tissue, and says the force and its error.\n"
-    "\n"
-    "  palpate run quickstart     a first press, with a page of its results\n"
-    "  palpate new press          a commented scenario of your own, press.toml\n"
-    "  palpate --help             all verbs; `palpate help VERB` shows one\n";
+// Without the examples, as of the program alone, the first press is one of `new`.
+std::string welcome() {
+  const std::vector<std::string> examples = scenario::examples();
+  const bool installed = std::ranges::find(examples, "quickstart") != examples.end();
+  const std::string made =
+      "  palpate new press          a commented scenario of your own, press.toml\n";
+  const std::string first = ", with a page of its results\n";
+  return "palpate presses a virtual finger into virtual soft tissue, and says the force and its "
+         "error.\n\n" +
+         (installed ? "  palpate run quickstart     a first press" + first + made
+                    : made + "  palpate run press.toml     presses" + first) +
+         "  palpate --help             all verbs; `palpate help VERB` shows one\n";
+}
 
 struct Parser {
   CLI::App app{"Batch mechanical testing of virtual soft tissue.", "palpate"};
@@ -588,7 +595,7 @@ std::variant<Arguments, UsageError, Answer> parse(const std::vector<std::string>
     return Answer{
         commands::complete(described(), words, scenario::settable_keys(), scenario::examples())};
   }
-  if (given.empty()) return Answer{welcome};
+  if (given.empty()) return Answer{welcome()};
   if (const auto now = renamed(arguments)) return UsageError{*now};
   Parser parser;
   if (const auto wrong = commands::wrong_word(parser.app, arguments)) return UsageError{*wrong};

@@ -130,10 +130,10 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
     std::rotate(sentences.begin(), sentences.begin() + 1, sentences.end());
   const std::size_t first = several ? sentences.size() : std::min<std::size_t>(sentences.size(), 1);
   page.answer({sentences.begin(), sentences.begin() + static_cast<std::ptrdiff_t>(first)});
-  page.section("Figures", page::all_figures(folder, [](const std::string&) {
-                 return "Error against cost of every configuration; the line joins those that no "
-                        "other beats in both.";
-               }));
+  page.figures(page::all_figures(folder, [](const std::string&) {
+    return "Error against cost of every configuration; the line joins those that no "
+           "other beats in both.";
+  }));
   constexpr std::size_t most = 200;
   page.section(
       "In words",

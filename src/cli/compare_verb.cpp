@@ -193,11 +193,12 @@ std::vector<Item> columns_that_differ(const compare::FolderComparison& compariso
 }
 
 // The overlays of all files, drawn in a folder beside the page that is gone afterwards.
-page::Markup overlays(const Compare& command, const compare::FolderComparison& comparison,
-                      const Names& names, const Talk& talk) {
+std::vector<page::Markup> overlays(const Compare& command,
+                                   const compare::FolderComparison& comparison, const Names& names,
+                                   const Talk& talk) {
   const bool folders = fs::is_directory(command.want);
   const std::string folder = command.report + ".partial";
-  page::Markup all;
+  std::vector<page::Markup> all;
   const std::vector<Item> differing = columns_that_differ(comparison);
   for (const compare::FileComparison& file : comparison.files) {
     if (file.state != compare::FileComparison::State::compared) continue;
@@ -221,8 +222,8 @@ page::Markup overlays(const Compare& command, const compare::FolderComparison& c
     if (fs::exists(picture)) {
       const page::Markup svg =
           page::inline_svg(read_text(picture.string()), page::id_of(file.file), caption);
-      all += page::element("figure", page::element("div", svg, {{"class", "plot"}}) +
-                                         page::element("figcaption", caption));
+      all.push_back(page::element("figure", page::element("div", svg, {{"class", "plot"}}) +
+                                                page::element("figcaption", caption)));
     }
     fs::remove_all(folder);
   }
@@ -258,16 +259,17 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
     page.headline("Differs", "in its files, columns or rows");
   } else {
     const compare::WorstRow& row = *worst->worst;
+    const std::string common = compare::common_rows_text(comparison, first->file);
     const auto* got_number = std::get_if<double>(&row.got);
     const auto* want_number = std::get_if<double>(&row.want);
     if (std::isfinite(row.relative))
       page.headline(rounded_text(100.0 * row.relative, 3) + " %",
-                    "largest difference of " + worst->name);
+                    "largest difference of " + worst->name + common);
     else if (got_number != nullptr && want_number != nullptr)  // where 0 is wanted
       page.headline(rounded_text(std::abs(*got_number - *want_number), 3),
-                    "largest difference of " + worst->name);
+                    "largest difference of " + worst->name + common);
     else
-      page.headline("Differs", "in " + worst->name);
+      page.headline("Differs", "in " + worst->name + common);
     page.answer({std::to_string(differing.size()) + " of " + std::to_string(all) +
                  " columns differ by more than the tolerances, `" + worst->name + "` in " +
                  count_text(worst->differing, "row") + "; most" +
@@ -276,7 +278,7 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
                  cell_text(row.want) + " in " + names.want + "."});
   }
   page.answer(alone);
-  page.section("Curves", overlays(command, comparison, names, talk));
+  page.figures(overlays(command, comparison, names, talk));
   page.section("What differs", first_table(differing, names));
   constexpr auto folded = page::Page::Shown::folded;
   page.section("All columns that differ", all_tables(comparison, differing, names), folded);

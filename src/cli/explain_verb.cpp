@@ -407,9 +407,10 @@ class Explanation {
       std::string text = std::string("  ") + (forecast.model == model ? "> " : "  ") +
                          scenario::traits(forecast.model).word;
       text.resize(22, ' ');
-      line(text + (forecast.cannot.empty() ? "error " + error_text(forecast.known(mesh_error)) +
-                                                 (on_mesh ? " on this mesh" : "")
-                                           : "cannot: " + forecast.cannot));
+      line(text + (forecast.cannot.empty()
+                       ? "error " + error_text(forecast.known(mesh_error, model)) +
+                             (on_mesh ? " on this mesh" : "")
+                       : "cannot: " + forecast.cannot));
     }
     if (const std::string text = scene_.choice.shortfall(mesh_error); !text.empty())
       line("  note         " + text);
@@ -457,7 +458,7 @@ void draw(const std::string& file, const scene::Scene& scene, const std::string&
   page::Page page(title, "scene");
   const std::size_t end = std::min(text.find("\n\n"), text.size());  // of the sentences
   page.answer(split(text.substr(0, end), '\n'));
-  page.section("Scene", report::scene_view(picture, title));
+  page.beside(report::scene_view(picture, title));
   page.script(report::scene_script());
   page.section("What would be computed", page::element("pre", trimmed(text.substr(end))));
   write_atomically(file, page.html());
@@ -564,7 +565,8 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
   const std::string text = Explanation(scenes[shown], expected[shown])
                                .text(several ? scenes[shown].name : "", family.title);
   if (!command.picture.empty())
-    draw(command.picture, scenes[shown], family.title,
+    draw(command.picture, scenes[shown],
+         family.title + (several ? ", case " + scenes[shown].name : ""),
          Explanation(scenes[shown], expected[shown]).text("", family.title));
   if (talk.json()) {
     for (std::size_t i = 0; i < scenes.size(); ++i)

@@ -189,7 +189,10 @@ std::string cell_text(const Cell& cell) {
 std::string worst_text(const WorstRow& worst) {
   std::string text = "row " + std::to_string(worst.row) + ": ";
   if (!worst.case_name.empty()) text += "case `" + one_line(worst.case_name) + "`, ";
-  if (!worst.x_name.empty()) text += one_line(worst.x_name) + " " + cell_text(worst.x) + ", ";
+  if (!worst.x_name.empty()) {
+    const auto* x = std::get_if<double>(&worst.x);  // a place, which six digits tell
+    text += one_line(worst.x_name) + " " + (x ? rounded_text(*x, 6) : cell_text(worst.x)) + ", ";
+  }
   // Digits that show the difference to three of its own; the JSON has all of them.
   int digits = 17;
   if (std::isfinite(worst.relative) && worst.relative > 0.0)
@@ -570,6 +573,15 @@ std::vector<Item> differences(const FolderComparison& comparison) {
   return all;
 }
 
+std::string common_rows_text(const FolderComparison& comparison, const std::string& file) {
+  for (const FileComparison& one : comparison.files)
+    if (const auto& [got, want] = std::pair(one.comparison.rows_got, one.comparison.rows_want);
+        one.file == file && !one.comparison.rows_equal())
+      return " over the first " + std::to_string(std::min(got, want)) + " of " +
+             count_text(std::max(got, want), "row");
+  return "";
+}
+
 std::string headline(const FolderComparison& comparison) {
   std::size_t columns = 0;
   for (const FileComparison& file : comparison.files) columns += file.comparison.columns.size();
@@ -588,6 +600,7 @@ std::string headline(const FolderComparison& comparison) {
   if (first.column != nullptr && first.column->worst &&
       std::isfinite(first.column->worst->relative))
     text += " by " + percent_text(first.column->worst->relative);
+  if (first.column != nullptr) text += common_rows_text(comparison, first.file);
   return text;
 }
 
@@ -601,7 +614,8 @@ std::string difference_lines(const FolderComparison& comparison) {
             "\n";
   if (found.size() > most)
     text += "and " + std::to_string(found.size() - most) +
-            " more; `--json` tells all of them, `--report FILE` writes them on a page\n";
+            " more; `--json` tells all of them, `palpate compare GOT WANT --report FILE` writes "
+            "them on a page\n";
   return text;
 }
 

@@ -148,6 +148,10 @@ struct Item {
 [[nodiscard]] std::vector<Item> items_of(const FolderComparison& comparison);
 [[nodiscard]] std::vector<Item> differences(const FolderComparison& comparison);
 
+// ` over the first 201 of 401 rows`: what is compared of a file whose tables are of different
+// length in GOT and WANT; else empty.
+[[nodiscard]] std::string common_rows_text(const FolderComparison& comparison,
+                                           const std::string& file);
 // The comparison in a line: `equal: 35 columns of 2 files`, or `DIFFERS in 17 of 35 columns of 2
 // files, in force_N by 0.5 %`, the column that comes first by its rank.
 [[nodiscard]] std::string headline(const FolderComparison& comparison);

@@ -345,7 +345,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
     page.headline(known, its_interval);
   }
   page.answer(lines);
-  page.section("Figures", page::all_figures(folder, figure_words));
+  page.figures(page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;
   const record::Table table = identified_table(found);
   page.section("Estimates",

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "base/text.h"
+#include "base/units.h"
 #include "base/written.h"
 #include "plot/gnuplot_text.h"
 
@@ -33,7 +35,30 @@ Markup element(std::string_view tag, const Markup& inner, const Attributes& attr
 }
 
 Markup element(std::string_view tag, std::string_view words, const Attributes& attributes) {
-  return element(tag, text(words), attributes);
+  constexpr std::array<std::string_view, 3> copied{"code", "pre", "title"};  // letter by letter
+  const bool prose = std::find(copied.begin(), copied.end(), tag) == copied.end();
+  return element(tag, text(prose ? kept_together(words) : std::string(words)), attributes);
+}
+
+std::string kept_together(std::string_view words) {
+  constexpr const char* no_break = "\u00a0";  // a space at which no line ends
+  std::string kept;
+  for (std::size_t at = 0; at < words.size(); ++at) {
+    const auto is_unit = [&] {
+      std::string_view next = words.substr(at + 1);
+      next = next.substr(0, next.find_first_of(" ,;:)"));
+      if (next.ends_with('.')) next.remove_suffix(1);
+      const std::string_view first = next.substr(0, next.find_first_of("/^_"));  // of `N/mm^n`
+      return next == "%" || next == "µs" || unit_factor(next) || unit_factor(first);
+    };
+    const bool after_number =
+        !kept.empty() && std::isdigit(static_cast<unsigned char>(kept.back())) != 0;
+    if (words[at] == ' ' && (kept.ends_with("±") || (after_number && is_unit())))
+      kept += no_break;
+    else
+      kept += words[at];
+  }
+  return kept;
 }
 
 Markup link(const std::string& target, std::string_view words) {
@@ -44,7 +69,7 @@ Markup sentence(std::string_view words) {
   Markup all;
   bool code = false;
   for (const std::string& part : split(words, '`')) {
-    all += code ? element("code", part) : text(part);
+    all += code ? element("code", part) : text(kept_together(part));
     code = !code;
   }
   return all;

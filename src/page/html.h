@@ -37,6 +37,9 @@ using Attributes = std::vector<std::pair<std::string_view, std::string>>;
                              const Attributes& attributes = {});
 [[nodiscard]] Markup element(std::string_view tag, std::string_view words,
                              const Attributes& attributes = {});
+// No line ends between a number and its unit, or between `±` and its number. The words of an
+// element are kept so, but those of `code`, `pre` and `title`, which a reader may copy.
+[[nodiscard]] std::string kept_together(std::string_view words);
 // A link to a file beside the page, or to a place on it (`#id`).
 [[nodiscard]] Markup link(const std::string& target, std::string_view words);
 // A sentence in which what stands between back-quotes becomes code; and sentences as paragraphs.

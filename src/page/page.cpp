@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <sstream>
 #include <string_view>
 
 #include "base/text.h"
@@ -33,13 +34,18 @@ input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .big span { font-size: .65em; font-weight: 400; } .failure { color: var(--fail); }
 .result { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .result p { margin: .35rem 0; }
-main section:first-child h2 { margin-top: .8rem; }
+main section:first-child h2 { margin-top: .8rem; } .beside > * { margin: 0; }
+@media screen and (min-width: 75rem) { body:has(.beside) { max-width: 84rem; }
+  header:has(.beside) { display: grid; grid-template: auto 1fr / minmax(0, 1fr) minmax(0, 40rem);
+    column-gap: 2rem; } .said, nav { grid-column: 1; } .beside { grid-area: 1 / 2 / 3 / 3; }
+  .beside svg { max-height: calc(100vh - 7rem); } .figures { display: grid; gap: 0 2rem;
+    grid-template-columns: 1fr 1fr; } main p, main li, main pre { max-width: 60rem; } }
 nav ul { list-style: none; padding: 0; margin: .7rem 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
 figure { margin: 1rem 0 1.6rem; break-inside: avoid; }
 figcaption, caption { color: var(--soft); text-align: left; padding: .3rem 0; font-size: .95rem; }
 figure svg { display: block; width: 100%; max-width: 40rem; height: auto; }
 @media screen and (max-width: 37rem) { .plot svg text { font-size: 1.15em; }
-  #scene-still text { font-size: 1.8em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
+  #scene-still text { font-size: 1.8em; } #scene-still .names text { font-size: 1.5em; } #scene-still .more { display: none; } .wide td { overflow-wrap: anywhere; } }
 #scene-still .back { fill: none; } #scene-still .ink { fill: var(--ink); }
 #scene-still .ink[stroke] { stroke: var(--ink); } #scene-still .border { stroke: var(--soft); }
 #scene-still .halo { fill: var(--ink); stroke: var(--back); }
@@ -59,14 +65,15 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards figure svg { max-height: 22rem; } .cards .plot text { font-size: 1.22em; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards figure svg { max-height: 27rem; } .cards .plot text { font-size: 1.22em; } .cards .plot svg { overflow: visible; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
 .whole .words { min-width: 0; white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
   .wide tr { border-bottom: 1px solid var(--line); padding: .3rem 0; }
   .wide th, .wide td { border: 0; padding: .1rem 0; text-align: left; } .wide .words { min-width: 0; }
   td[data-column]::before { content: attr(data-column) ": "; color: var(--soft); } .wide td:empty { display: none; }
-  body { display: flex; flex-direction: column; } main { order: 1; min-width: 0; } nav { order: 2; } footer { order: 3; } }
+  body { display: flex; flex-direction: column; } main { order: 1; min-width: 0; } nav { order: 2; } footer { order: 3; }
+  header { display: contents; } }
 .many thead { display: none; } .many table, .many tr, .many th { display: block; }
 .many td { display: inline-block; margin-right: 1rem; white-space: normal; }
 .many th, .many td { border: 0; padding: .1rem 0; text-align: left; }
@@ -77,7 +84,7 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .5rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
-  .wide { overflow: visible; } .wide table { font-size: .78rem; } figure svg { max-height: 19cm; }
+  .wide { overflow: visible; } .wide table { font-size: .78rem; } figure svg { max-height: 19cm; } .beside svg { max-height: 13cm; }
   h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { margin-top: .3rem; }
   tbody tr:first-child { break-before: avoid; } summary { list-style: none; break-after: avoid; }
   details::details-content { content-visibility: visible; height: auto; }
@@ -119,20 +126,6 @@ std::string with_prefix(const std::string& svg, const std::string& prefix) {
   return made;
 }
 
-constexpr const char* no_break = "\u00a0";  // a space at which no line ends
-
-// No line ends between a number and its unit, or between `±` and its number.
-std::string unbroken(const std::string& words) {
-  std::string text;
-  for (const char letter : words) {
-    const bool after_digit =
-        !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0;
-    text += letter == ' ' && (after_digit || text.ends_with("±")) ? std::string(no_break)
-                                                                  : std::string(1, letter);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string id_of(const std::string& heading) {
@@ -152,13 +145,10 @@ Page::Page(std::string title, std::string kind)
 void Page::answer(const std::vector<std::string>& sentences) { answer_ += paragraphs(sentences); }
 
 void Page::headline(const std::string& value, const std::string& error, Tone tone) {
-  const bool of_value = error.starts_with("±");
-  answer_ += element("p",
-                     text(unbroken(value) + (of_value                ? no_break
-                                             : tone == Tone::failure ? ": "
-                                                                     : " ")) +
-                         element("span", unbroken(error)),
-                     {{"class", tone == Tone::failure ? "big failure" : "big"}});
+  const char* between = error.starts_with("±") ? "\u00a0" : tone == Tone::failure ? ": " : " ";
+  Markup words = text(kept_together(value) + (error.empty() ? "" : between));
+  if (!error.empty()) words += element("span", error);
+  answer_ += element("p", words, {{"class", tone == Tone::failure ? "big failure" : "big"}});
 }
 
 void Page::section(const std::string& heading, const Markup& body, Shown shown) {
@@ -174,6 +164,36 @@ void Page::section(const std::string& heading, const Markup& body, Shown shown) 
       line();
 }
 
+void Page::beside(const Markup& picture) {
+  beside_ = element("div", picture, {{"class", "beside"}});
+}
+
+namespace {
+
+// Whether a figure would be too small to read where it is seen whole, as one of many panels.
+bool is_tall(const Markup& figure) {
+  constexpr double most = 1.6;  // heights a width: of letters of 12 px 9 are left in 900 px
+  const std::string word = "viewBox=\"";
+  const std::size_t at = figure.html().find(word);
+  if (at == std::string::npos) return false;
+  std::istringstream box(figure.html().substr(at + word.size(), 60));
+  double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
+  box >> x >> y >> width >> height;
+  return height > most * width;
+}
+
+}  // namespace
+
+void Page::figures(const std::vector<Markup>& all) {
+  if (all.empty()) return;
+  const bool below = is_tall(all.front());
+  if (!below) beside(all.front());
+  Markup more;
+  for (std::size_t i = below ? 0 : 1; i < all.size(); ++i) more += all[i];
+  if (!more.empty())
+    section(below ? "Figures" : "More figures", element("div", more, {{"class", "figures"}}));
+}
+
 void Page::script(const std::string& code) { script_ += code; }
 
 std::string Page::html(Files files) const {
@@ -186,14 +206,15 @@ std::string Page::html(Files files) const {
   if (!answer_.empty())
     top += element("div", answer_,
                    {{"class", "result"}, {"role", "region"}, {"aria-label", "The result"}});
-  Markup body = element("a", "To the results", {{"class", "skip"}, {"href", "#results"}}) + line() +
-                element("header", top) + line() +
-                element("nav", element("ul", contents_), {{"aria-label", "Contents"}}) + line() +
-                element("main", body_, {{"id", "results"}}) + line() +
-                element("footer", std::string("Made by palpate " PALPATE_VERSION ".") +
-                                      (files == Files::beside
-                                           ? " Everything on this page is in the files beside it."
-                                           : ""));
+  top = element("div", top, {{"class", "said"}}) + line() + beside_ +
+        element("nav", element("ul", contents_), {{"aria-label", "Contents"}});
+  Markup body =
+      element("a", "To the results", {{"class", "skip"}, {"href", "#results"}}) + line() +
+      element("header", top) + line() + element("main", body_, {{"id", "results"}}) + line() +
+      element("footer",
+              std::string("Made by palpate " PALPATE_VERSION ".") +
+                  (files == Files::beside ? " Everything on this page is in the files beside it."
+                                          : ""));
   if (!script_.empty()) body += element("script", Markup::ready(script_));
   return "<!DOCTYPE html>\n" +
          element("html", element("head", head) + line() + element("body", body), {{"lang", "en"}})
@@ -226,9 +247,9 @@ std::string class_of(const std::string& picture) {
   return map ? "plot map" : "plot";
 }
 
-Markup all_figures(const WholeFolder& folder,
-                   const std::function<std::string(const std::string&)>& words) {
-  Markup all;
+std::vector<Markup> all_figures(const WholeFolder& folder,
+                                const std::function<std::string(const std::string&)>& words) {
+  std::vector<Markup> all;
   std::vector<std::string> tables;
   for (const HashedFile& file : folder.files()) {
     if (file.path.ends_with(".csv")) tables.push_back(file.path);
@@ -242,15 +263,15 @@ Markup all_figures(const WholeFolder& folder,
       if (script.find("'" + table + "'") != std::string::npos)
         data += text(data.empty() ? " Data: " : ", ") + link(table, table);
     if (!fs::exists(folder.file(picture))) {
-      all += element(
-          "p", text("The figure " + picture + " could not be drawn here. " + description) + data);
+      all.push_back(element(
+          "p", text("The figure " + picture + " could not be drawn here. " + description) + data));
       continue;
     }
     const Markup svg = inline_svg(read_text(folder.file(picture)), name, description);
-    all +=
-        element("figure", element("div", svg, {{"class", class_of(folder.file(picture))}}) +
-                              element("figcaption", text(description) + data + text("; picture: ") +
-                                                        link(picture, picture)));
+    all.push_back(element(
+        "figure", element("div", svg, {{"class", class_of(folder.file(picture))}}) +
+                      element("figcaption", text(kept_together(description)) + data +
+                                                text("; picture: ") + link(picture, picture))));
   }
   return all;
 }

@@ -29,6 +29,10 @@ class Page {
   void headline(const std::string& value, const std::string& error, Tone tone = Tone::result);
   void answer(const Markup& more) { answer_ += more; }
   void answer(const std::vector<std::string>& sentences);
+  // A picture that is seen whole with the answer: beside it on a wide screen, else below it.
+  void beside(const Markup& picture);
+  // The first figure beside the answer, the others in a section.
+  void figures(const std::vector<Markup>& all);
   // A section with an entry in the contents. An empty body makes no section. A folded one shows its
   // heading until it is opened, and is open in print.
   enum class Shown { open, folded };
@@ -43,7 +47,7 @@ class Page {
 
  private:
   std::string title_, kind_;
-  Markup answer_, contents_, body_;
+  Markup answer_, beside_, contents_, body_;
   std::string script_;
 };
 
@@ -54,8 +58,8 @@ class Page {
 // All figures of a folder whose scripts are listed in it, in that order, inline, with the tables
 // that they read. `words` gives the caption of the figure NAME, which a screen reader says as well;
 // an empty caption leaves the figure out. Of a picture that was not drawn its data are named.
-[[nodiscard]] Markup all_figures(const WholeFolder& folder,
-                                 const std::function<std::string(const std::string&)>& words);
+[[nodiscard]] std::vector<Markup> all_figures(
+    const WholeFolder& folder, const std::function<std::string(const std::string&)>& words);
 
 // `How it was made` as `how-it-was-made`.
 [[nodiscard]] std::string id_of(const std::string& heading);

@@ -26,10 +26,11 @@ struct Series {
   std::string label = {};  // in the legend; empty: the case's name
   std::optional<std::size_t> colour = {};  // of line_colours; none: its place in the list
   std::vector<FittedCurve> fits = {};
-  std::optional<int> step = {};      // rows of this step only
-  bool dashed = false;               // what another series is compared with
-  std::optional<double> shade = {};  // with a colour bar: the value that gives the colour; such
-                                     // series have one legend entry per label
+  std::optional<int> step = {};       // rows of this step only
+  std::optional<double> x_from = {};  // rows from this x on only
+  bool dashed = false;                // what another series is compared with
+  std::optional<double> shade = {};   // with a colour bar: the value that gives the colour; such
+                                      // series have one legend entry per label
 };
 
 enum class Axis { linear, logarithmic };

@@ -191,7 +191,7 @@ struct Legend {
 };
 
 std::string frame(const Figure& figure, const Legend& legend) {
-  std::string text = "set title " + gnuplot_quoted(figure.title) + "\nset xlabel " +
+  std::string text = "set title " + gnuplot_title(figure.title) + "\nset xlabel " +
                      gnuplot_quoted(figure.x_label) + "\nset ylabel " +
                      gnuplot_quoted(figure.y_label) + "\nset tmargin 2.5\nset samples 500\n";
   if (legend.lines == 0)
@@ -248,6 +248,10 @@ std::string x_expression(const Series& series) {
     if (!condition.empty()) condition += " && ";
     condition += "column('step') == " + std::to_string(*series.step);
   }
+  if (series.x_from) {
+    if (!condition.empty()) condition += " && ";
+    condition += x + " >= " + number_text(*series.x_from);
+  }
   return condition.empty() ? "(" + x + ")" : "(" + condition + " ? " + x + " : NaN)";
 }
 
@@ -264,9 +268,9 @@ struct KeptRows {
     for (const Series& one : figure.series) {
       const bool plain = std::all_of(one.case_name.begin(), one.case_name.end(),
                                      [](char c) { return c >= ' ' && c <= '~' && c != '|'; });
-      if (!plain || one.case_name.empty() || one.step || one.csv_file != first.csv_file ||
-          one.column != first.column || one.x_column != first.x_column ||
-          one.y_column != first.y_column)
+      if (!plain || one.case_name.empty() || one.step || one.x_from ||
+          one.csv_file != first.csv_file || one.column != first.column ||
+          one.x_column != first.x_column || one.y_column != first.y_column)
         return;
       all += one.case_name + "|";
     }

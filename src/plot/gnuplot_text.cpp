@@ -45,6 +45,13 @@ std::string gnuplot_quoted(const std::string& text) {
   return result + "'";
 }
 
+std::string gnuplot_title(const std::string& title) {
+  constexpr double most = 60.0;  // letters in the usual size
+  if (static_cast<double>(title.size()) <= most) return gnuplot_quoted(title);
+  return gnuplot_quoted(title) + " font '," +
+         rounded_text(15.0 * most / static_cast<double>(title.size()), 3) + "'";
+}
+
 std::string key_label(std::string key) {
   for (const std::string table : {"tissue.", "contact.", "solver."})
     if (key.starts_with(table)) key.erase(0, table.size());

@@ -26,6 +26,8 @@ inline constexpr std::array<int, 6> gnuplot_markers{7, 5, 9, 13, 11, 15};
 
 // The text in single quotes: quotes are doubled, line breaks become spaces.
 [[nodiscard]] std::string gnuplot_quoted(const std::string& text);
+// The title of a picture, with letters so small that a long one fits, on a telephone as well.
+[[nodiscard]] std::string gnuplot_title(const std::string& title);
 
 // The value in a row of the CSV column with this name: `column('NAME')`.
 [[nodiscard]] std::string gnuplot_column(const std::string& name);

@@ -384,6 +384,17 @@ std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
   return figure;
 }
 
+// The way of a hand or a stand to the surface would leave no room for the curve; of it, a twentieth
+// of the depth is drawn.
+void begin_at_contact(plot::Figure& figure, const Records& records) {
+  double deepest = 0.0;
+  for (const record::CaseRecord& record : records)
+    for (const record::ContactRow& row : record.contact) deepest = std::max(deepest, row.travel);
+  if (!(deepest > 0.0)) return;
+  for (plot::Series& series : figure.series)
+    if (series.x_column == "travel_mm") series.x_from = -0.05 * unit::mm.from_si(deepest);
+}
+
 // Model and device over time; nothing if the run was not live or the device gave no force.
 std::optional<plot::Figure> live_figure(const Records& records) {
   bool measured = false, sent = false;
@@ -395,7 +406,7 @@ std::optional<plot::Figure> live_figure(const Records& records) {
   if (!measured && !sent) return std::nullopt;
   std::vector<plot::Series> all{{.y_column = "force_N", .label = "model"}};
   if (measured) all.push_back({.y_column = "measured_force_N", .label = "measured"});
-  if (sent) all.push_back({.y_column = "sent_force_N", .label = "sent to the arm"});
+  if (sent) all.push_back({.y_column = "sent_force_N", .label = "sent to the arm", .dashed = true});
   plot::Figure figure = figure_of(Kind::force_time, all);
   figure.name = "figure_live_force";
   return figure;
@@ -423,7 +434,8 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
       if (records.size() == 1) figures.back().series.front().label = "model";
       figures.back().series.push_back(measured);
     }
-  const bool live = std::any_of(records.begin(), records.end(), has_measured_force);
+  const std::optional<plot::Figure> live = live_figure(records);
+  if (live) begin_at_contact(figures.back(), records);
   if (has_step<scenario::Hold>(family.base) && !live) {  // that of a live run is figure_live_force
     figures.push_back(with_cases(Kind::force_time, family, records));
     choose_axis(figures.back(), forces, two_decades);
@@ -443,7 +455,11 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
   if (decades.y_axis == plot::Axis::logarithmic)
     add_decades(figures, std::move(decades), family, records);
   if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);
-  if (const auto figure = live_figure(records)) figures.push_back(*figure);
+  if (live) figures.push_back(*live);
+  const auto slide = std::find_if(figures.begin(), figures.end(), [](const plot::Figure& figure) {
+    return figure.name.ends_with("_slide");
+  });
+  if (slide != figures.end()) std::rotate(figures.begin(), slide, slide + 1);  // it is asked for
   return figures;
 }
 
@@ -492,6 +508,12 @@ std::vector<std::string> picture_formats(const scenario::Output& output) {
   if (output.pdf) formats.emplace_back("pdf");
   if (output.png) formats.emplace_back("png");
   return formats;
+}
+
+plot::Figure gauge_figure(const scenario::Family& family) {
+  plot::Figure figure = figure_of(Kind::force_time, {{.csv_file = "force_time.csv"}});
+  figure.title = family.title;
+  return figure;
 }
 
 std::vector<plot::Figure> family_figures(const scenario::Family& family, const Records& records,

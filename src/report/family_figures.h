@@ -42,4 +42,7 @@ enum class Kind {
     const scenario::Family& family, const std::vector<record::CaseRecord>& records,
     const std::vector<fit::NamedFit>& fits);
 
+// What a gauge without displacement has measured, which no model follows: force_time.csv.
+[[nodiscard]] plot::Figure gauge_figure(const scenario::Family& family);
+
 }  // namespace palpate::report

@@ -294,10 +294,14 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
     return !record.contact.empty() || !record.strain.empty();
   });
   std::vector<plot::Figure> figures;
-  if (family_->base.output.figures && has_rows) {
+  const std::string readings = folder_.file("force_time.csv");
+  const bool gauge_alone =
+      !has_rows && fs::exists(readings) && record::read_csv(readings).rows.size() > 1;
+  if (family_->base.output.figures && (has_rows || gauge_alone)) {
     plot::DrawOptions options;
     options.formats = picture_formats(family_->base.output);
-    figures = family_figures(*family_, records, fits);
+    figures =
+        has_rows ? family_figures(*family_, records, fits) : std::vector{gauge_figure(*family_)};
     for (const plot::Figure& figure : figures)
       plot::draw(plot::sheet_of(figure), folder_, warnings, options);
   }

@@ -529,6 +529,20 @@ std::string early_end(const record::CaseRecord& record) {
   return record.reason + "; last stable time " + rounded_text(record.last_stable_time) + " s";
 }
 
+// The verdict of a live run in two: whether measured and model agree, by how much, and what causes
+// it; and the other numbers.
+std::vector<std::string> verdict_sentences(const std::string& verdict) {
+  const std::string allowed = " allowed)";
+  std::size_t numbers = verdict.find(allowed);
+  if (numbers == std::string::npos) return {verdict};
+  numbers += allowed.size();
+  const std::size_t causes = std::min(verdict.find("; ", numbers), verdict.size());
+  std::vector<std::string> all{verdict.substr(0, numbers) + verdict.substr(causes)};
+  if (causes > numbers + 2)
+    all.push_back("Beside the device: " + verdict.substr(numbers + 2, causes - numbers - 2));
+  return all;
+}
+
 // `a sphere of radius 11 mm`
 std::string finger_text(const scenario::Case& one) {
   const scenario::Finger& finger = one.scenario.finger;
@@ -652,20 +666,34 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
   if (records.size() == 1) {
     const record::CaseRecord& record = records.front();
     const record::Answer& answer = record.answer;
-    if (answer.neglected.empty()) return page.answer({answer.model, answer.error});  // no model ran
+    if (answer.neglected.empty()) {  // a gauge was read, and no model ran
+      std::string force = answer.error.substr(0, answer.error.rfind('.'));
+      std::erase(force, ':');
+      page.headline(force, "");
+      return page.answer({answer.model});
+    }
     const auto peak = record::peak_of(record);
+    const std::vector<std::string> verdict =
+        answer.verdict.empty() ? std::vector<std::string>() : verdict_sentences(answer.verdict);
     if (record.unstable)
       page.headline(capitalized(divergence(record)), first_statement(record.reason),
                     page::Page::Tone::failure);
     else
       page.headline(peak ? "Peak " + peak->of + " " + peak_text(record) : "No result",
-                    peak_error(record));
-    if (!record.reason.empty()) page.answer({early_end(record)});
+                    peak_error(record) + (verdict.empty() ? "" : " (model)"),
+                    peak ? page::Page::Tone::result : page::Page::Tone::failure);
+    const std::size_t cause = first_statement(record.reason).size();
+    if (record.unstable && cause < record.reason.size())  // the cause and the time are above
+      page.answer({record.reason.substr(cause + 2)});
+    else if (!record.unstable && !record.reason.empty())
+      page.answer({early_end(record)});
+    if (!verdict.empty()) page.answer({verdict.front()});
     const scenario::Case& one = scenario::case_named(family, record.name);
     page.answer({tested(one, record)});
     if (family.base.uniform())
       page.answer({loading_text(one), "Viscosity: " + viscosity_of(one, record)});
     page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
+    if (verdict.size() > 1) page.answer({verdict.back()});
   } else if (!records.empty()) {
     std::vector<std::string> lines = answer_lines(records);
     std::erase(lines[1], '`');
@@ -697,28 +725,27 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   const Records& records = shown.records;
   page::Page page(family.title, "run");
   add_answer(page, family, records);
-  for (const record::CaseRecord& record : records)
-    if (!record.answer.verdict.empty())
-      page.answer({"Beside the device: " + record.answer.verdict + "."});
-  page.section("Figures", page::all_figures(folder, [&](const std::string& name) {
-                 const auto figure =
-                     std::find_if(shown.figures.begin(), shown.figures.end(),
-                                  [&](const plot::Figure& one) { return one.name == name; });
-                 return figure == shown.figures.end() ? "" : figure_words(*figure);
-               }));
+  const std::vector<Markup> figures = page::all_figures(folder, [&](const std::string& name) {
+    const auto figure = std::find_if(shown.figures.begin(), shown.figures.end(),
+                                     [&](const plot::Figure& one) { return one.name == name; });
+    return figure == shown.figures.end() ? "" : figure_words(*figure);
+  });
+  page.figures(figures);
   if (records.size() > 1 && records.size() <= most_answers)  // the first screen is for the curves
     page.section("Every case", element("div",
                                        page::table("Force, error, model and what is neglected",
                                                    case_table(family, records)),
                                        {{"class", "whole"}}));
   if (!records.empty() && !records.front().picture.faces.empty()) {
-    page.section("Scene", scene_view(records.front().picture, family.title));
+    const Markup scene = scene_view(records.front().picture, family.title);
+    figures.empty() ? page.beside(scene) : page.section("Scene", scene);
     page.script(scene_script());
   }
   page.section("Beside the paper", paper_section(family, records, shown.fits));
   constexpr auto folded = page::Page::Shown::folded;
-  page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
-               folded);
+  if (records.size() != 1 || !records.front().answer.neglected.empty())
+    page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
+                 folded);
   page.section("Warnings", warnings(records), folded);
   page.section("Findings",
                records.size() <= most_columns

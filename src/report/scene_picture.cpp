@@ -477,7 +477,8 @@ std::string scene_svg(const ScenePicture& picture, const std::string& title) {
             "</g>\n<g class=\"ink\" fill=\"#222\" stroke=\"#222\" stroke-width=\"1.6\">\n" +
             press(picture, view) + "</g>\n";
   if (!picture.load.empty()) text += before + load(picture, view) + "</g>\n";
-  text += "<g class=\"ink\" fill=\"#222\">\n" + label({margin, 40.0}, " font-size=\"18\"", title);
+  text +=
+      "<g class=\"ink names\" fill=\"#222\">\n" + label({margin, 40.0}, " font-size=\"18\"", title);
   return text + legend(picture) + "</g>\n</svg>\n";
 }
 

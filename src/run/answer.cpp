@@ -162,7 +162,7 @@ class Words {
       const std::string reason = traits_.formula() ? " " + against(traits_.of, " is ") : "";
       return "Without `solver.model` it would be " + word(other.model) +
              (other.model == traits_.of ? deep(choice.otherwise_found.depth_matters) : "") + ", " +
-             error_text(other.known(mesh_error_)) + " from the true force." + reason;
+             error_text(other.known(mesh_error_, traits_.of)) + " from the true force." + reason;
     }
     if (uniform) {
       const auto* springs = choice.forecast(Model::mass_spring);
@@ -367,7 +367,8 @@ std::string quantity(const scenario::Resolved& scenario) {
 }  // namespace
 
 std::optional<double> stated_error(const scene::Scene& scene, std::optional<double> mesh_error) {
-  if (const scene::Forecast* forecast = scene.choice.taken()) return forecast->known(mesh_error);
+  if (const scene::Forecast* forecast = scene.choice.taken())
+    return forecast->known(mesh_error, forecast->model);
   // Without forecasts the force is that of a half-space, because of `one_way`, or unjudged.
   if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::one_way)
     return std::nullopt;

@@ -255,6 +255,10 @@ class Chooser {
     choice_.waves = choice_.found.inertia_matters ? 0.0 : counted(e.inertia);
     choice_.otherwise = *cheapest(choice_, false, limit);
     choice_.otherwise_found = choice_.found;
+    if (const auto& depth = case_.scenario.contact.depth)
+      choice_.otherwise_found.depth_matters = *depth == scenario::Contact::Depth::neo_hookean;
+    if (choice_.given && choice_.otherwise.model == model_)  // without a name it takes the depth
+      choice_.otherwise.error = error_of(scenario::traits(model_), choice_.found);
     ask(Asked::deep, std::abs(e.deep) + (e.depth_ratio ? 0.0 : e.deep_error), 0.2 * limit,
         deep_answer(e), e.depth_ratio ? "" : "bound of what large strains change");
     ask(Asked::curved, e.curvature_ratio - 1.0, 0.1);

@@ -8,6 +8,7 @@
 #include "base/fields.h"
 #include "base/files.h"
 #include "base/text.h"
+#include "scenario/schema.h"
 
 namespace palpate::scenario {
 namespace {
@@ -350,7 +351,7 @@ Family parse(const std::string& text, const std::string& path,
 }
 
 Family read(const std::string& path, const std::vector<std::string>& settings) {
-  const std::string found = find(path);
+  const std::string found = file_of(path);
   return parse(read_text(found), name_of(found), settings);
 }
 
@@ -387,7 +388,7 @@ Family outline_planned(const std::string& path) {
 }
 
 Family outline(const std::string& path, const std::vector<std::string>& settings) {
-  const std::string found = find(path);
+  const std::string found = file_of(path);
   return outline_text(read_text(found), name_of(found), settings);
 }
 
@@ -430,6 +431,22 @@ std::string find(const std::string& given) {
     return given;
   const fs::path example = example_folder() / (given + ".toml");
   return fs::is_regular_file(example, error) ? example.string() : given;
+}
+
+std::string file_of(const std::string& given) {
+  const std::string found = find(given);
+  const fs::path path(given);
+  std::error_code error;
+  if (found != given || given == "-" || path.has_parent_path() || path.has_extension() ||
+      fs::exists(path, error) || error)
+    return found;
+  std::string kind = "press";
+  for (const Starter& starter : starters())
+    if (given == starter.word.word) kind = given;
+  throw InputError({given, 0, 0}, "is neither a file nor an installed example; " +
+                                      did_you_mean(given, examples(),
+                                                   "`palpate new " + kind + "` writes " + kind +
+                                                       ".toml, a scenario to begin with"));
 }
 
 std::vector<std::string> examples() {

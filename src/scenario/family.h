@@ -164,6 +164,10 @@ auto at_its_key(const Node& document, const Act& act) {
 // folder has one, or the checkout in which the program was built; otherwise it stays as it is.
 [[nodiscard]] std::string find(const std::string& given);
 
+// The same of a scenario that is read. Throws InputError with the way to a first scenario if a bare
+// name is none of them.
+[[nodiscard]] std::string file_of(const std::string& given);
+
 // The names of the installed examples, in alphabetical order.
 [[nodiscard]] std::vector<std::string> examples();
 

@@ -401,7 +401,7 @@ const Forecast* Choice::forecast(scenario::Model model) const {
 
 std::string Choice::shortfall(std::optional<double> mesh_error) const {
   const Forecast* forecast = taken();
-  const double error = forecast != nullptr ? forecast->known(mesh_error) : 0.0;
+  const double error = forecast != nullptr ? forecast->known(mesh_error, forecast->model) : 0.0;
   if (given || !(error > chosen.solver.tolerance)) return "";
   return "no model is expected to be within the tolerance of " +
          percent_text(chosen.solver.tolerance) + ": `" + scenario::traits(forecast->model).word +

@@ -99,9 +99,12 @@ struct Forecast {
   double seconds = 0.0;     // rough time to set up and run on one core
   std::string cannot = {};  // the reason why the model is not applicable; empty if it is
 
-  // The error with what the mesh at hand costs, if that is known.
-  [[nodiscard]] double known(std::optional<double> mesh_error) const {
-    return mesh_error && !scenario::traits(model).formula() ? error - of_mesh + *mesh_error : error;
+  // The error with what the mesh of the model `at_hand` costs, if that is known. Springs share a
+  // mesh; that of `solid` is another.
+  [[nodiscard]] double known(std::optional<double> mesh_error, scenario::Model at_hand) const {
+    const bool same = !scenario::traits(model).formula() &&
+                      scenario::traits(model).solid == scenario::traits(at_hand).solid;
+    return mesh_error && same ? error - of_mesh + *mesh_error : error;
   }
 };
 

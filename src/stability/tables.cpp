@@ -78,11 +78,10 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
     page.answer({more.front()});
     more.erase(more.begin());
   }
-  page.section(
-      "Figure", page::all_figures(folder, [](const std::string&) {
-        return "Longest stable time step over the model, each quantity of the scenario, and which "
-               "failures were seen: theory as lines, measurements as points.";
-      }));
+  page.figures(page::all_figures(folder, [](const std::string&) {
+    return "Longest stable time step over the model, each quantity of the scenario, and which "
+           "failures were seen: theory as lines, measurements as points.";
+  }));
   constexpr auto folded = page::Page::Shown::folded;
   page.section("In words", page::paragraphs(more), folded);
   constexpr std::size_t most = 60;

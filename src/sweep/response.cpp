@@ -358,7 +358,7 @@ plot::Sheet response_sheet(const Response& response) {
   const bool both = response.is_map();
   std::string text = plot::gnuplot_head(response.name, {.height = both ? 720 : 400}) +
                      "set xlabel offset 0,0.6\nset ylabel offset 1,0\n" + plot::gnuplot_palette();
-  const std::string title = plot::gnuplot_quoted(response.title);
+  const std::string title = plot::gnuplot_title(response.title);
   const std::string label =
       "set xlabel " + plot::gnuplot_quoted(factor_label(response.across)) + "\n";
   if (both) {
@@ -434,7 +434,8 @@ std::string axis(const std::string& name, const Shown& what) {
   return (what.logarithmic ? plot::gnuplot_logarithmic(name, from, to)
                            : plot::gnuplot_linear(name)) +
          "set " + name + "range [" + rounded_text(from, 6) + ":" + rounded_text(to, 6) + "]\nset " +
-         name + "label " + plot::gnuplot_quoted(what.label) + "\n";
+         name + "label " + plot::gnuplot_quoted(what.label) +
+         (name == "cb" ? " offset 1,0\n" : "\n");
 }
 
 std::string panel(const Shown& x, const Shown& y, const Shown& colour, const std::string& output,
@@ -484,7 +485,7 @@ std::optional<plot::Sheet> points_sheet(const SweepColumns& columns, const Outpu
                      std::to_string(panels.size()) + ",1 margins screen 0.14,0.8," +
                      rounded_text(72.0 / height, 3) + "," + rounded_text(1.0 - 45.0 / height, 3) +
                      " spacing screen 0," + rounded_text(75.0 / height, 3) + " title " +
-                     plot::gnuplot_quoted(whole) + " font ',15'\n";
+                     plot::gnuplot_title(whole) + "\n";
   for (const std::string& one : panels) text += one;
   return plot::Sheet{name, text + "\nunset multiplot\n", {points_file}};
 }
@@ -574,7 +575,7 @@ std::optional<plot::Sheet> sensitivity_sheet(const Sensitivity& found, const std
       std::to_string(outputs.size()) + ",1 margins screen " + rounded_text(margin, 3) + ",0.965," +
       rounded_text(76.0 / height, 3) + "," + rounded_text(1.0 - 62.0 / height, 3) +
       " spacing screen 0.1," + rounded_text(32.0 / height, 3) + " title " +
-      plot::gnuplot_quoted(title + ": shares of the variance") + " font ',15'\n";
+      plot::gnuplot_title(title + ": shares of the variance") + "\n";
   for (const auto& rows : outputs) {
     std::vector<std::string> tics;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -653,7 +654,8 @@ std::string extremes(const SweepColumns& columns, const OutputColumn& output) {
          case_text(columns, at(range.high)) + ".";
 }
 
-// For each output its range, and the factor on which it depends most. The first range is above.
+// For each output its range, and the factor on which it depends most; of the first, whose range is
+// the headline, the cases at its ends.
 std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivity& found) {
   std::vector<std::string> all;
   for (const OutputColumn& output : columns.outputs) {
@@ -667,8 +669,12 @@ std::vector<std::string> sentences(const SweepColumns& columns, const Sensitivit
         strongest = &row;
     if (strongest != nullptr)
       sentence += (sentence.empty() ? "" : ": ") + percent_text(strongest->indices.total.value) +
-                  " of the variance follows `" + strongest->factor + "`";
-    if (!sentence.empty()) all.push_back(sentence + ".");
+                  " of the variance follows " + within_sentence(plot::key_label(strongest->factor));
+    if (!sentence.empty()) sentence += ".";
+    if (&output == columns.outputs.data())
+      if (const std::string cases = extremes(columns, output); !cases.empty())
+        sentence += (sentence.empty() ? "" : " ") + cases;
+    if (!sentence.empty()) all.push_back(sentence);
   }
   return all;
 }
@@ -697,13 +703,16 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   if (!shown.columns.outputs.empty()) {
     const OutputColumn& first = shown.columns.outputs.front();
     page.headline(range_text(first), shown.answer.error());
-    if (const std::string cases = extremes(shown.columns, first); !cases.empty())
-      page.answer({cases});
+  }
+  std::vector<std::string> of_outputs = sentences(shown.columns, found);
+  if (!of_outputs.empty()) {
+    page.answer({of_outputs.front()});
+    of_outputs.erase(of_outputs.begin());
   }
   page.answer(shown.answer.lines());
-  page.answer(sentences(shown.columns, found));
+  page.answer(of_outputs);
   page.answer({shown.totals});
-  page.section("Figures", page::all_figures(folder, figure_words));
+  page.figures(page::all_figures(folder, figure_words));
   constexpr std::size_t most = 100;
   page::Markup tables;
   if (!found.indices.empty())

@@ -192,7 +192,8 @@ TEST(GaugeRun, WithoutTravelRecordsForcesThatIdentifyReads) {
   EXPECT_FALSE(has(live.ended.err, "Peak force")) << live.ended.err;
   const std::string page = read_file(live.folder() / "out/device_stand/report.html");
   EXPECT_TRUE(has(page, "Forces over time, without the model"));
-  EXPECT_TRUE(has(page, "Largest measured force: 0."));
+  EXPECT_TRUE(has(page, "<p class=\"big\">Largest measured force 0."));
+  EXPECT_FALSE(has(page, "Model, error and what is neglected"));
   EXPECT_TRUE(has(page, "A live run follows its device"));
   for (const char* of_a_model : {"no result", "Peak force", "Neglected"})
     EXPECT_FALSE(has(page, of_a_model)) << of_a_model;
@@ -234,6 +235,7 @@ TEST(GaugeRun, SaysWhatItWaitsFor) {
                                                 "--device", link_of(gauge, emulator), "--force",
                                                 "--clock", "virtual", "--seconds", "10"});
     EXPECT_EQ(ended.code, 6) << ended.err;
+    EXPECT_FALSE(has(ended.err, "was not drawn")) << ended.err;
     const auto waiting = ended.err.find("waiting for the force to rise by ");
     const auto never = ended.err.find("the force never rose by ");
     ASSERT_LT(waiting, never) << ended.err;

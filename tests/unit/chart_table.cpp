@@ -64,7 +64,7 @@ TEST(ChartTable, NoErrorBelowTheReferencesOwnIsClaimed) {
   EXPECT_DOUBLE_EQ(verdict.floor, 0.01);
   EXPECT_DOUBLE_EQ(verdict.error[0], 0.01);
   EXPECT_EQ(verdict.front, std::vector<std::size_t>{0}) << "b is no righter";
-  EXPECT_NE(chart_text({chart}).find("`a` (at most 1 %, 1 us per ms)"), std::string::npos);
+  EXPECT_NE(chart_text({chart}).find("`a` (at most 1 %, 1 µs per ms)"), std::string::npos);
   EXPECT_DOUBLE_EQ(judge(chart_of({measured("a", 1, 0.0)}, 0.0)).floor, comparison_error);
 }
 
@@ -79,7 +79,7 @@ TEST(ChartTable, WhatWasNotMeasuredTakesNoPart) {
   EXPECT_EQ(verdict.cheapest_within, std::nullopt);
   EXPECT_EQ(verdict.nearest, 3U);
   EXPECT_NE(chart_text({chart}).find("No configuration is within the tolerance of 5 %; nearest is "
-                                     "`beaten` (10 %, 200 us per ms)"),
+                                     "`beaten` (10 %, 200 µs per ms)"),
             std::string::npos);
 }
 
@@ -168,26 +168,26 @@ TEST(ChartTable, SentencesToActOn) {
   CaseChart chart = model_table();
   std::string text = chart_text({chart});
   EXPECT_NE(text.find("Reference: some sentence."), std::string::npos);
-  EXPECT_NE(text.find("Within the tolerance of 5 %, the cheapest is `auto` (2 %, 2 us per ms): "
+  EXPECT_NE(text.find("Within the tolerance of 5 %, the cheapest is `auto` (2 %, 2 µs per ms): "
                       "`--set solver.model=knee`; `auto` took it."),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find("The knee is `auto` (2 %, 2 us per ms): `--set solver.model=knee`; to halve "
+  EXPECT_NE(text.find("The knee is `auto` (2 %, 2 µs per ms): `--set solver.model=knee`; to halve "
                       "its error costs 50 times as much: `dear`, `--set solver.model=dear`."),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find("In real time (1000 us per ms) the most accurate is `dear` (0.5 %"),
+  EXPECT_NE(text.find("In real time (1000 µs per ms) the most accurate is `dear` (0.5 %"),
             std::string::npos);
   // `auto` elsewhere.
   chart.rows[1].variant.name = "knee";
   chart.rows[2].variant.name = "auto";
   text = chart_text({chart});
-  EXPECT_NE(text.find("; `auto` took `auto` (0.5 %, 100 us per ms), at 50 times the cost."),
+  EXPECT_NE(text.find("; `auto` took `auto` (0.5 %, 100 µs per ms), at 50 times the cost."),
             std::string::npos)
       << text;
   chart.rows[3].variant.name = "auto";
   chart.rows[2].variant.name = "dear";
-  EXPECT_NE(chart_text({chart}).find("(10 %, 200 us per ms), which is outside."),
+  EXPECT_NE(chart_text({chart}).find("(10 %, 200 µs per ms), which is outside."),
             std::string::npos);
 }
 
@@ -198,7 +198,7 @@ TEST(ChartTable, InTimeAlone) {
   chart.rows[2].time_error = Deviation{0.3, 0.3, 0.3};
   const std::string text = chart_text({chart});
   EXPECT_NE(text.find("Time integration alone, compared with `modal` (0.01 %):\n- `cheap`, 0.01 "
-                      "%, 1 us per ms\n\n"),
+                      "%, 1 µs per ms\n\n"),
             std::string::npos)
       << text;
 }

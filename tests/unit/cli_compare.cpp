@@ -151,6 +151,28 @@ TEST_F(CompareVerb, columns_and_rows_too_few_and_too_many) {
          "compared: the first 3\n");
 }
 
+// What is compared of curves of different length stands beside the difference.
+TEST_F(CompareVerb, says_over_which_rows_the_difference_is) {
+  const std::string head = "case,travel_mm,force_N\n", start = head + "skin,0,1\n";
+  write_file(folder_ / "got.csv", start + "skin,1,2\n");
+  write_file(folder_ / "want.csv", start + "skin,1,4\nskin,2,5\n");
+  const Ended ended =
+      palpate(folder_.path(), {"compare", "got.csv", "want.csv", "--report", "page.html"});
+  EXPECT_TRUE(ended.out.starts_with(
+      "DIFFERS in 1 of 3 columns, in force_N by 50 % over the first 2 of 3 rows\n"))
+      << ended.out;
+  EXPECT_EQ(headline_of(folder_ / "page.html"),
+            "50 % largest difference of force_N over the first 2 of 3 rows");
+}
+
+// The place of the worst row has six digits; the JSON has all of them.
+TEST_F(CompareVerb, tells_a_place_in_six_digits) {
+  const std::string place = "time_s,force_N\n0.2990033222591362,";
+  const Ended ended = compare(place + "1\n", place + "2\n");
+  EXPECT_NE(ended.out.find("row 1: time_s 0.299003, got 1, want 2,"), std::string::npos)
+      << ended.out;
+}
+
 TEST_F(CompareVerb, what_is_no_number) {
   expect(compare("a\nnan\ninf\n", "a\nnan\ninf\n"), 0, "equal: 1 column\n");
   const std::string wide = "[default]\nrel = 1e9\nabs = 1e9\n";

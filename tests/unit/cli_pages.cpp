@@ -50,7 +50,7 @@ TEST(Pages, AnIndexSaysHowLongARunTook) {
   write_file(folder / "out/b/report.html", "<title>b – palpate sweep</title>\n");
   const Ended opened = palpate(folder.path(), {"open", "out"});
   ASSERT_EQ(opened.code, 0) << opened.err;
-  const std::string index = read_file(folder / "out/index.html");
+  const std::string index = read_page(folder / "out/index.html");
   EXPECT_NE(index.find(" It took 2.5 s."), std::string::npos) << index;
   EXPECT_EQ(index.find("It took"), index.rfind("It took")) << "b has no times";
 }
@@ -117,6 +117,29 @@ TEST(NewScenario, OfEveryKindRunsAsItIs) {
   EXPECT_TRUE(says(twice, "press.toml: exists; give another name")) << twice.err;
   EXPECT_EQ(palpate(folder.path(), {"new", "press", "--force"}).code, 0);
   EXPECT_EQ(palpate(folder.path(), {"new", "press", "-"}).out, scenario::starters()[0].text);
+}
+
+// A program without its examples, such as one that was copied alone, promises what it can do.
+TEST(NewScenario, IsTheBeginningWhereThereAreNoExamples) {
+  const TemporaryFolder folder;
+  const fs::path alone = folder / "bin/palpate";
+  fs::create_directories(alone.parent_path());
+  fs::copy_file(PALPATE_PROGRAM, alone);
+  const auto ran = [&](const std::vector<std::string>& words) {
+    return run_program({.arguments = words, .folder = folder.path(), .program = alone.string()});
+  };
+  const std::string welcome = ran({}).out;
+  EXPECT_EQ(welcome.find("quickstart"), std::string::npos) << welcome;
+  EXPECT_LT(welcome.find("palpate new press "), welcome.find("palpate run press.toml "));
+  for (const auto& [name, kind] : {std::pair("quickstart", "press"), std::pair("creep", "creep")}) {
+    const Ended ended = ran({"run", name});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(says(ended, std::string(name) +
+                                ": is neither a file nor an installed example; `palpate new " +
+                                kind + "` writes " + kind + ".toml, a scenario to begin with"))
+        << ended.err;
+  }
+  EXPECT_NE(palpate(folder.path(), {}).out.find("palpate run quickstart"), std::string::npos);
 }
 
 TEST(DryRun, SaysWhatWouldBeComputedAndWritesNothing) {

@@ -83,7 +83,8 @@ TEST_F(ReportPages, TheInspectorFindsFaults) {
   write_file(
       folder_ / "bad.html",
       "<!DOCTYPE html><html lang=en><body><h1 id=a>x</h1><main id=a style=\"color:#aaaaaa;"
-      "background:#ffffff\">pale<a href=\"#b\">b</a><a href=c.csv>c</a><img src=d.png>"
+      "background:#ffffff\">pale 7 mm<p class=result style=\"height:901px\"></p><a "
+      "href=\"#b\">b</a><a href=c.csv>c</a><img src=d.png>"
       "<div style=\"width:500px\">wide</div><div class=wide style=\"width:20px;overflow:auto\">"
       "abcdefghijkl</div><div class=plot><svg aria-label=x><path d=\"M0 0L9 9\" "
       "stroke=\"#b4b4b4\"/><text y=9>under</text><text y=9>over</text></svg></div>"
@@ -95,7 +96,8 @@ TEST_F(ReportPages, TheInspectorFindsFaults) {
   for (const char* fault :
        {"CONSOLE", "id a twice", "no place #b", "c.csv", "loads d.png", "without words", "px wide",
         "contrast of 2.32", "cut at 390", "with 2.07 to 1", "is cut on paper: hash",
-        "has over over under in a figure at 360"})
+        "has over over under in a figure at 360", "has its result beyond the first screen",
+        "may part a number from its unit in 7 mm"})
     EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [&](const auto& one) {
       return one.find(fault) != std::string::npos;
     })) << fault;

@@ -221,7 +221,7 @@ TEST_F(RunRefusals, divergence_keeps_what_was_stable) {
   EXPECT_TRUE(says(ended, "unstable, case unstable: ")) << ended.err;
   EXPECT_TRUE(says(ended, "; last stable time ")) << ended.err;
   const std::string page = read_file(folder_ / "out/unstable/report.html");
-  EXPECT_NE(page.substr(0, page.find("<section")).find("; last stable time "), std::string::npos);
+  EXPECT_NE(page.substr(0, page.find("<section")).find(">Diverged at "), std::string::npos);
   const record::Table findings = record::read_csv(folder_ / "out/unstable/findings.csv");
   const auto finding = [&](const char* name) {
     return findings.rows.at(0).at(static_cast<std::size_t>(findings.find(name)));

@@ -101,7 +101,7 @@ TEST(ARunThatDiverges, says_so_first_on_page_and_terminal) {
 
 // What the first screen of a page says.
 std::string head_of(const fs::path& page) {
-  const std::string html = read_file(page);
+  const std::string html = read_page(page);
   return html.substr(0, html.find("</header>"));
 }
 
@@ -127,7 +127,7 @@ TEST(OfACreepTest, the_page_begins_with_stress_times_and_viscous_law) {
             std::string::npos)
       << two;
   EXPECT_EQ(two.find("<table"), std::string::npos) << "the first screen is for the curves";
-  const std::string page = read_file(folder / "out/creep/report.html");
+  const std::string page = read_page(folder / "out/creep/report.html");
   for (const char* part :
        {">Kelvin-Voigt, retardation time 1 s</td>", ">Kelvin-Voigt, retardation time 2 s</td>"})
     EXPECT_LT(page.find("id=\"every-case\""), page.find(part)) << part;
@@ -200,7 +200,7 @@ TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
   const std::string headline = headline_of(result() / "report.html");
   EXPECT_NE(headline.find(" N "), std::string::npos) << headline;
   EXPECT_TRUE(headline.ends_with(" %, not counting viscosity")) << headline;
-  const std::string page = read_file(result() / "report.html");
+  const std::string page = read_page(result() / "report.html");
   EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm at x 30, y 30, z 30 mm; "
                       "underside fixed (bonded base)."),
             std::string::npos);

@@ -49,7 +49,7 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
 // Keys, models and parameters are not words of a sentence.
 TEST(Html, NamesKeepTheirCaseAtTheStartOfASentence) {
   EXPECT_EQ(paragraphs({"tissue.young_modulus 60 kPa"}).html(),
-            "<p>tissue.young_modulus 60 kPa.</p>");
+            "<p>tissue.young_modulus 60\u00a0kPa.</p>");
   EXPECT_EQ(paragraphs({"coupled_springs is taken"}).html(), "<p>coupled_springs is taken.</p>");
   EXPECT_EQ(paragraphs({"a, logarithmic fit"}).html(), "<p>a, logarithmic fit.</p>");
   EXPECT_EQ(paragraphs({"a press is deep."}).html(), "<p>A press is deep.</p>");
@@ -82,6 +82,46 @@ TEST(Page, TheHeadlineKeepsItsNumbersTogether) {
   EXPECT_EQ(headline("3 %", "largest"), "3\u00a0% <span>largest</span>");
   EXPECT_EQ(headline("Diverged", "energy grew", Page::Tone::failure),
             "Diverged: <span>energy grew</span>");
+  EXPECT_EQ(headline("No result", "", Page::Tone::failure), "No result");
+}
+
+// No line ends between a number and its unit; what may be copied stays letter by letter.
+TEST(Page, ANumberKeepsItsUnitOnItsLine) {
+  EXPECT_EQ(kept_together("radius 7 mm, 3.5 kPa; 40 % of 2 N (5 s)."),
+            "radius 7\u00a0mm, 3.5\u00a0kPa; 40\u00a0% of 2\u00a0N (5\u00a0s).");
+  EXPECT_EQ(kept_together("-95 1/m, 3 N/mm^n"), "-95\u00a01/m, 3\u00a0N/mm^n");
+  EXPECT_EQ(kept_together("3 of 4 cases at 2 places"), "3 of 4 cases at 2 places");
+  EXPECT_EQ(paragraphs({"set `to = 7 mm` for 7 mm"}).html(),
+            "<p>Set <code>to = 7 mm</code> for 7\u00a0mm.</p>");
+  EXPECT_EQ(element("pre", "7 mm").html(), "<pre>7 mm</pre>");
+  EXPECT_EQ(element("figcaption", "7 mm").html(), "<figcaption>7\u00a0mm</figcaption>");
+  const std::string made = table("at 7 mm", {{"a", "b"}, {{"3 kPa", "5 %"}}}).html();
+  for (const char* part : {">at 7\u00a0mm<", ">3\u00a0kPa<", ">5\u00a0%<"})
+    EXPECT_NE(made.find(part), std::string::npos) << part;
+}
+
+// The first figure stands in the head of the page, before the contents; the others are a section.
+TEST(Page, TheFirstFigureStandsBesideTheAnswer) {
+  const auto made = [](const std::vector<Markup>& figures) {
+    Page page("t", "run");
+    page.answer({"It is 3."});
+    page.figures(figures);
+    return page.html();
+  };
+  const std::string one = made({text("first")}), two = made({text("first"), text("second")});
+  const std::string beside = "<div class=\"beside\">first</div>";
+  EXPECT_LT(one.find("It is 3."), one.find(beside));
+  EXPECT_LT(one.find(beside), one.find("<nav"));
+  EXPECT_EQ(one.find("More figures"), std::string::npos);
+  EXPECT_NE(two.find("<div class=\"figures\">second</div>"), std::string::npos);
+  EXPECT_NE(two.find("<a href=\"#more-figures\">"), std::string::npos);
+  EXPECT_EQ(made({}).find("class=\"beside\""), std::string::npos);
+  const auto picture = [&](const char* height) {
+    return made({Markup::ready(std::string("<svg viewBox=\"0 0 640 ") + height + "\"></svg>")});
+  };
+  EXPECT_NE(picture("1000").find("class=\"beside\""), std::string::npos);
+  EXPECT_EQ(picture("1100").find("class=\"beside\""), std::string::npos) << "too small to read";
+  EXPECT_NE(picture("1100").find("<h2 id=\"figures\">"), std::string::npos);
 }
 
 // A comparison's page stands alone; that of a run stands beside its tables.
@@ -141,7 +181,7 @@ TEST(Page, IsTheSameTwiceAndKnowsItsAnswer) {
   EXPECT_NE(made().find("<a href=\"#figures\">Figures</a>"), std::string::npos);
   EXPECT_EQ(made().find("Empty"), std::string::npos);
   EXPECT_EQ(summary_of(made()).title, "A & B – palpate run");
-  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4 N (h).");
+  EXPECT_EQ(summary_of(made()).answer, "It is 3 < 4\u00a0N (h).");
   EXPECT_EQ(summary_of(made()).paper, "");
   EXPECT_EQ(summary_of("<p>another page</p>").title, "");
 }
@@ -162,7 +202,9 @@ TEST(Page, MissingPicturesAreSaid) {
   folder.open();
   folder.write("data.csv", "x\n");
   folder.write("plot.gp", "plot 'data.csv'\n");
-  const Markup shown = all_figures(folder, [](const std::string&) { return "Force."; });
+  const auto all = all_figures(folder, [](const std::string&) { return "Force."; });
+  ASSERT_EQ(all.size(), 1U);
+  const Markup& shown = all.front();
   EXPECT_NE(shown.html().find("plot.svg could not be drawn here"), std::string::npos);
   EXPECT_NE(shown.html().find("<a href=\"data.csv\">"), std::string::npos);
 }

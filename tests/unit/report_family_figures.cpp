@@ -1,6 +1,7 @@
 // Which figures a family gets, and what their legends call the fits.
 #include <gtest/gtest.h>
 
+#include "plot/gnuplot.h"
 #include "report/family_figures.h"
 
 namespace palpate {
@@ -39,16 +40,16 @@ TEST(FamilyFigures, ASlideIsDrawnAlongItsWay) {
   };
   const auto force = drawn("displacement");
   ASSERT_EQ(force.size(), 2U);
-  EXPECT_EQ(force[0].series.at(0).step, 1);  // the slide is no indentation
-  EXPECT_EQ(force[1].name, "figure_force_slide");
-  EXPECT_EQ(force[1].series.at(0).x_column, "slide_mm");
-  EXPECT_EQ(force[1].series.at(0).y_column, "force_N");
-  EXPECT_EQ(force[1].series.at(0).step, 2);
+  EXPECT_EQ(force[1].series.at(0).step, 1);  // the slide is no indentation
+  EXPECT_EQ(force[0].name, "figure_force_slide") << "what is asked for comes first";
+  EXPECT_EQ(force[0].series.at(0).x_column, "slide_mm");
+  EXPECT_EQ(force[0].series.at(0).y_column, "force_N");
+  EXPECT_EQ(force[0].series.at(0).step, 2);
   // Where the force stays, the travel is what is felt.
   const auto travel = drawn("force");
   ASSERT_EQ(travel.size(), 2U);
-  EXPECT_EQ(travel[1].name, "figure_displacement_slide");
-  EXPECT_EQ(travel[1].series.at(0).y_column, "travel_mm");
+  EXPECT_EQ(travel[0].name, "figure_displacement_slide");
+  EXPECT_EQ(travel[0].series.at(0).y_column, "travel_mm");
 }
 
 TEST(FamilyFigures, AHoldIsDrawnOverTime) {
@@ -75,6 +76,27 @@ TEST(FamilyFigures, TheDeviceIsDrawnBesideTheModel) {
   EXPECT_EQ(figures[1].name, "figure_live_force");
   EXPECT_EQ(figures[1].series.at(0).y_column, "force_N");
   EXPECT_EQ(figures[1].series.at(1).y_column, "measured_force_N");
+}
+
+// The way to the surface, which may be twenty times as long, leaves the curve no room.
+TEST(FamilyFigures, ALiveCurveBeginsAtTheContact) {
+  const auto family =
+      scenario::parse("schema = 1\n" + indent + "[[step]]\nkind = \"hold\"\n", "test.toml", {});
+  record::CaseRecord record;
+  record.name = "test";
+  record.contact.resize(2);
+  record.contact[0].travel = -20e-3;
+  record.contact[1].travel = 2e-3;
+  EXPECT_FALSE(report::family_figures(family, {record}, {}).at(0).series.at(0).x_from);
+  record.measured.resize(2);
+  record.measured[1].sent = {0.0, 0.0, 1.0};
+  const auto figures = report::family_figures(family, {record}, {});
+  ASSERT_EQ(figures.size(), 2U) << "force over time stands with what was sent, and once";
+  EXPECT_DOUBLE_EQ(figures[0].series.at(0).x_from.value(), -0.1);  // mm, a twentieth
+  EXPECT_NE(plot::gnuplot_script(figures[0]).find("column('travel_mm') >= -0.1 ?"),
+            std::string::npos);
+  EXPECT_EQ(figures[1].name, "figure_live_force");
+  EXPECT_TRUE(figures[1].series.at(1).dashed) << "it lies on the model's line";
 }
 
 TEST(FamilyFigures, RegressionsAreDrawnWhereTheyAreAskedFor) {

@@ -10,6 +10,7 @@
 #include "base/child_process.h"
 #include "base/files.h"
 #include "plot/gnuplot.h"
+#include "plot/gnuplot_text.h"
 #include "record/csv.h"
 
 namespace palpate::report {
@@ -282,6 +283,13 @@ TEST(FittedCurve, IsWhatTheFitSays) {
   EXPECT_EQ(fitted_curve(fit)->from, 0.1);
   fit.parameters[0].estimate = fit::Estimate::unknown;
   EXPECT_FALSE(fitted_curve(fit).has_value());
+}
+
+// Sixty letters fit a picture of the width of a telephone; more of them are smaller.
+TEST(GnuplotTitle, FitsWhereItIsLong) {
+  EXPECT_EQ(plot::gnuplot_title("Skin"), "'Skin'");
+  const std::string title(90, 'a');
+  EXPECT_EQ(plot::gnuplot_title(title), "'" + title + "' font ',10'");
 }
 
 }  // namespace

@@ -293,7 +293,8 @@ TEST(ScenePicture, takes_the_colours_of_a_page) {
   const std::string svg = scene_svg(flat(), "");
   EXPECT_EQ(occurrences(svg, "<rect class=\"back\""), 1U);
   EXPECT_EQ(occurrences(svg, "class=\"halo\""), 1U);
-  EXPECT_EQ(occurrences(svg, "<g class=\"ink\""), 3U) << "numbers, arrow with axes, legend";
+  EXPECT_EQ(occurrences(svg, "<g class=\"ink\""), 2U) << "numbers, arrow with axes";
+  EXPECT_EQ(occurrences(svg, "<g class=\"ink names\""), 1U) << "title and legend";
   EXPECT_EQ(occurrences(svg, "<g fill=\"#222\""), 1U) << "slides stand before the body";
   EXPECT_EQ(scene_view(flat(), "").html().find("class=\"white\""), std::string::npos);
 }

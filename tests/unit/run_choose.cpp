@@ -203,6 +203,22 @@ TEST(Choose, AGivenModelIsKeptAndStillAsked) {
   EXPECT_EQ(choice.forecasts.size(), scenario::model_table.size());
 }
 
+// The error of the springs' mesh says nothing of the mesh of `solid`, and a depth that the scenario
+// names is that of every model.
+TEST(Choose, AMeshIsKnownToItsOwnModelsOnly) {
+  const Choice choice = choose(read(press + "[solver]\nmodel = \"coupled_springs\"\n"));
+  const scene::Forecast* solid = choice.forecast(Model::solid);
+  const scene::Forecast* springs = choice.forecast(Model::mass_spring);
+  ASSERT_TRUE(solid != nullptr && springs != nullptr);
+  EXPECT_EQ(solid->known(1e-3, Model::coupled_springs), solid->error);
+  EXPECT_EQ(solid->known(1e-3, Model::solid), solid->error - solid->of_mesh + 1e-3);
+  EXPECT_EQ(springs->known(1e-3, Model::coupled_springs), springs->error - springs->of_mesh + 1e-3);
+  EXPECT_EQ(springs->known(1e-3, Model::solid), springs->error);
+  const Choice named =
+      choose(read(press + "[solver]\nmodel = \"hertz\"\n[contact]\ndepth = \"hertz\"\n"));
+  EXPECT_FALSE(named.otherwise_found.depth_matters);
+}
+
 // What stands beside a named model is what would be chosen without it, large strains included.
 TEST(Choose, OthersAreForeseenAsIfNoModelWereNamed) {
   const Choice open = choose(read(press));
