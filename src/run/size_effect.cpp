@@ -153,6 +153,21 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
   return found;
 }
 
+// The surface of a body of several parts may have more nodes than a coarse mesh.
+SizeEffect coarsest_press(scenario::Resolved trial, const std::string& folder,
+                          const scene::SurfaceTouch& touch, scene::SpecimenShapes& shapes) {
+  constexpr int most_nodes = 8 * coarse_nodes;
+  for (;;) {
+    auto* mesh = std::get_if<scenario::Tetgen>(&trial.tissue.mesh);
+    try {
+      return press(trial, folder, touch, shapes);
+    } catch (const MeshError&) {
+      if (mesh == nullptr || mesh->nodes >= most_nodes) throw;
+      mesh->nodes *= 2;
+    }
+  }
+}
+
 }  // namespace
 
 bool each_presses(const scenario::Resolved& scenario) {
@@ -182,7 +197,7 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
     const scenario::Resolved trial = trial_of(scenario, touch, known);
     const auto& numbers =
         shapes.kept_numbers(key_of(trial, touch), [&]() -> scene::SpecimenShapes::Numbers {
-          const SizeEffect found = press(trial, folder, touch, shapes);
+          const SizeEffect found = coarsest_press(trial, folder, touch, shapes);
           return {found.change, found.error, found.softer, found.moving,
                   static_cast<double>(found.nodes)};
         });
