@@ -35,8 +35,8 @@ struct SizeEffect {
 // The formula is Hertz's where the surface's curvature is known, else the change is 0; on a cuboid
 // of several flat layers it is their exact law [sides], so that the change is that of the sides. At
 // the place that changes most along slides. Kept in `shapes` for travels and Poisson's ratios
-// nearby: travels are rounded up by less than sqrt(2), and ratios are interpolated. `seconds` is the
-// time of the quickest press, infinite at rest.
+// nearby: travels are rounded up by less than sqrt(2), and ratios are interpolated. `seconds` is
+// the time of the quickest press, infinite at rest.
 [[nodiscard]] SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,
                                      const scene::SurfaceTouch& touch, double seconds,
                                      scene::SpecimenShapes& shapes);

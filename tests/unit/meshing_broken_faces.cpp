@@ -157,9 +157,10 @@ TEST_F(BrokenSurfaces, stl_lines_out_of_order) {
 TEST_F(BrokenSurfaces, obj_lines_that_go_on) {
   EXPECT_EQ(complaint("a.obj", with(good_obj, "f 1 2 4", "f 1 \\\n 2\\\n4")),
             complaint("a.obj", good_obj));
-  EXPECT_EQ(complaint("a.obj", with(good_obj, "f 1 2 4", "f 1 \\\n  two \\\n4")),
-            "mesh: a.obj:7:3: a corner wants the number of a vertex, got `two`; write it like `12`, "
-            "or `-1` for the last vertex so far");
+  EXPECT_EQ(
+      complaint("a.obj", with(good_obj, "f 1 2 4", "f 1 \\\n  two \\\n4")),
+      "mesh: a.obj:7:3: a corner wants the number of a vertex, got `two`; write it like `12`, "
+      "or `-1` for the last vertex so far");
   EXPECT_EQ(complaint("a.obj", good_obj + "\\\n\\"), complaint("a.obj", good_obj));
 }
 
