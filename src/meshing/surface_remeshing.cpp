@@ -125,10 +125,12 @@ class Attempt {
     });
   }
 
+  [[nodiscard]] std::optional<Surface> collapsed() const { return collapsed(surface_, spacing_); }
+
   // Edges of a large surface are collapsed once to a finer one, from which all tries begin whose
   // edges are twice as long or more.
-  [[nodiscard]] std::optional<Surface> collapsed() {
-    if (surface_.triangles.size() < large) return collapsed(surface_, spacing_);
+  [[nodiscard]] std::optional<Surface> collapsed_again() {
+    if (surface_.triangles.size() < large) return collapsed();
     constexpr double finer = 1.0 / 8.0;
     bool begins = !begun_.triangles.empty();
     for (std::size_t v = 0; begins && v < spacing_.size(); ++v)
@@ -267,8 +269,11 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   const auto found_in = [&](int tries, bool by_place, std::size_t most) -> std::optional<Remeshed> {
     for (int i = 0; i < tries && !over; ++i) {
       std::vector<Vec3> wrong;
+      // The solid's meshes, whose forces may hang on a detail, all begin from the given surface.
+      const bool again = i > 0 && looser <= 1.0;
       std::optional<Surface> made = uneven && !by_place           ? attempt.even()
                                     : by_place && i == 0 && first ? std::move(first)
+                                    : again                       ? attempt.collapsed_again()
                                                                   : attempt.collapsed();
       if (made && !made->triangles.empty()) {
         if (i == 0 && !by_place && !uneven) first = made;

@@ -304,7 +304,8 @@ class Chooser {
       return;
     }
     try {
-      const SizeEffect found = size_effect(asked_, case_.folder, choice_.touch, shapes_);
+      const double seconds = e.rate > 0.0 ? e.travel / e.rate : HUGE_VAL;
+      const SizeEffect found = size_effect(asked_, case_.folder, choice_.touch, seconds, shapes_);
       if (found.nodes == 0) return;
       if (!formula && scene::refines(asked_)) {
         e.swing = swing(found, e, choice_.touch, asked_.tissue);

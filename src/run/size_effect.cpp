@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numerics.h"
+#include "base/symmetric_solver.h"
 #include "base/text.h"
 #include "mechanics/pressed_mesh.h"
 #include "scenario/programme.h"
@@ -13,6 +15,7 @@
 #include "scene/refining_press.h"
 #include "scene/scene.h"
 #include "scene/specimen_shape.h"
+#include "tissue/network.h"
 
 namespace palpate::run {
 namespace {
@@ -103,12 +106,7 @@ double depth_share(double change) { return std::pow(1.0 + change, 2.0 / 3.0); }
 
 // The volume with the kinetic energy of the body where what it yields beyond the formula changes at
 // unit speed, m^3; 0 where it is stiffer, and where spheres dent it for each other.
-double moving_volume(mechanics::PressedMesh& mesh, const mechanics::Touch& pressed, double yields,
-                     const scene::Scene& scene) {
-  if (!(yields > 0.0) || each_presses(scene.scenario)) return 0.0;
-  mesh.set_step(1.0);
-  if (mesh.move(pressed)) return 0.0;
-  const integrate::Vector moved = mesh.displacement();
+double moving_volume(const integrate::Vector& moved, double yields, const scene::Scene& scene) {
   const std::vector<double>& masses = scene.specimen->network.node_mass;
   double sum = 0.0;
   for (std::size_t n = 0; n < masses.size(); ++n)
@@ -116,7 +114,34 @@ double moving_volume(mechanics::PressedMesh& mesh, const mechanics::Touch& press
   return sum / (scene.scenario.tissue.density * yields * yields);
 }
 
-SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
+// By how much of what it yields the body is behind its static displacement under a force that grows
+// evenly, when a wave of the speed sqrt(E/rho) has gone `way` (m) since its beginning. A mode of
+// the frequency w is behind by sin(w T)/(w T), for which 1/(1 + (w T/4)^2) stands: one solution
+// with the inertia of T/4 has all modes. At 1 nothing has moved.
+double lag(const integrate::Vector& moved, double work, double way, const scene::Scene& scene) {
+  constexpr double part = 1.0 / 4.0;
+  constexpr double missed = 0.0125;  // the largest difference of both, from w T = 14 on
+  constexpr double tolerance = 1e-4;
+  const scene::Specimen& specimen = *scene.specimen;
+  const scenario::Resolved::Tissue& tissue = scene.scenario.tissue;
+  BlockMatrix matrix = tissue::stiffness_matrix(specimen.network);
+  integrate::Vector push = matrix * moved;
+  integrate::Vector inertia(push.size());                                               // N/m
+  const double rate = std::sqrt(tissue.young_modulus / tissue.density) / (part * way);  // 1/s
+  for (Eigen::Index d = 0; d < push.size(); ++d) {
+    if (specimen.held[as_index(d)] != 0) push[d] = 0.0;
+    inertia[d] = rate * rate * specimen.network.node_mass[as_index(d / 3)];
+  }
+  matrix.add_to_diagonal(inertia);
+  SymmetricSolver solver(tolerance);
+  if (!solver.prepare(std::move(matrix), specimen.held)) return 1.0;
+  const std::vector<integrate::Vector> right{push};
+  std::vector<integrate::Vector> slower(1);
+  if (!solver.solve(right, slower)) return 1.0;
+  return std::clamp(push.dot(moved - slower.front()) / work + missed, 0.0, 1.0);
+}
+
+SizeEffect press(const scenario::Resolved& trial, double way, const std::string& folder,
                  const scene::SurfaceTouch& touch, scene::SpecimenShapes& shapes) {
   scenario::Family family;
   family.folder = folder;
@@ -143,9 +168,13 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
       if (found.nodes == 0 || std::abs(softer) > std::abs(found.softer)) found.softer = softer;
       found.error = std::max(found.error, mechanics::mesh_error(*contact));
       const double indented = touch.pressed(scene.finger.sphere_radius, travel).depth;
-      found.moving =
-          std::max(found.moving,
-                   moving_volume(mesh, pressed, (1.0 - depth_share(softer)) * indented, scene));
+      const double yields = (1.0 - depth_share(softer)) * indented;
+      mesh.set_step(1.0);
+      if (yields > 0.0 && !each_presses(scene.scenario) && !mesh.move(pressed)) {
+        const integrate::Vector moved = mesh.displacement();
+        found.moving = std::max(found.moving, moving_volume(moved, yields, scene));
+        found.lag = std::max(found.lag, lag(moved, pressed.pressed() * yields, way, scene));
+      }
       found.nodes = scene.specimen->network.nodes();
       break;
     }
@@ -154,13 +183,13 @@ SizeEffect press(const scenario::Resolved& trial, const std::string& folder,
 }
 
 // The surface of a body of several parts may have more nodes than a coarse mesh.
-SizeEffect coarsest_press(scenario::Resolved trial, const std::string& folder,
+SizeEffect coarsest_press(scenario::Resolved trial, double way, const std::string& folder,
                           const scene::SurfaceTouch& touch, scene::SpecimenShapes& shapes) {
   constexpr int most_nodes = 8 * coarse_nodes;
   for (;;) {
     auto* mesh = std::get_if<scenario::Tetgen>(&trial.tissue.mesh);
     try {
-      return press(trial, folder, touch, shapes);
+      return press(trial, way, folder, touch, shapes);
     } catch (const MeshError&) {
       if (mesh == nullptr || mesh->nodes >= most_nodes) throw;
       mesh->nodes *= 2;
@@ -187,28 +216,37 @@ std::vector<Vec3> finger_way(const scenario::Resolved& scenario) {
 }
 
 SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,
-                       const scene::SurfaceTouch& touch, scene::SpecimenShapes& shapes) {
+                       const scene::SurfaceTouch& touch, double seconds,
+                       scene::SpecimenShapes& shapes) {
   const double wanted = scene::deepest_travel(scenario, scene::make_finger(scenario).whole);
   if (!(wanted > 0.0)) return {};
   const double ratio = std::min(scenario.tissue.poisson_ratio, ratios.back());
+  // Of a wave while the finger moves, m. Rounded down, so that like presses share it.
+  const double speed = std::sqrt(scenario.tissue.young_modulus / scenario.tissue.density);
+  const double way = std::isfinite(seconds)
+                         ? std::exp2(std::floor(2.0 * std::log2(seconds * speed)) / 2.0)
+                         : seconds;
   const auto above = std::lower_bound(ratios.begin() + 1, ratios.end(), ratio);
   const double share = (ratio - *(above - 1)) / (*above - *(above - 1));
   const auto at = [&](double known) {
     const scenario::Resolved trial = trial_of(scenario, touch, known);
-    const auto& numbers =
-        shapes.kept_numbers(key_of(trial, touch), [&]() -> scene::SpecimenShapes::Numbers {
-          const SizeEffect found = coarsest_press(trial, folder, touch, shapes);
-          return {found.change, found.error, found.softer, found.moving,
-                  static_cast<double>(found.nodes)};
+    const auto& numbers = shapes.kept_numbers(
+        key_of(trial, touch) + " " + number_text(way), [&]() -> scene::SpecimenShapes::Numbers {
+          const SizeEffect found = coarsest_press(trial, way, folder, touch, shapes);
+          return {found.change, found.error, found.softer,
+                  found.moving, found.lag,   static_cast<double>(found.nodes)};
         });
     // Effects of size grow with the radius of the contact.
     const double narrower =
         std::sqrt(wanted / std::get<scenario::Indent>(trial.steps.front()).to.value);
     // What the body yields over the depth of the contact; a change cannot reach -1.
     const double yields = narrower * (1.0 / depth_share(numbers[2]) - 1.0);
-    return SizeEffect{narrower * numbers[0], narrower * numbers[1],
-                      1.0 / ((1.0 + yields) * std::sqrt(1.0 + yields)) - 1.0, numbers[3],
-                      static_cast<int>(numbers[4])};
+    return SizeEffect{narrower * numbers[0],
+                      narrower * numbers[1],
+                      1.0 / ((1.0 + yields) * std::sqrt(1.0 + yields)) - 1.0,
+                      numbers[3],
+                      numbers[4],
+                      static_cast<int>(numbers[5])};
   };
   const SizeEffect low = share < 1.0 ? at(*(above - 1)) : SizeEffect{};
   const SizeEffect high = share > 0.0 ? at(*above) : low;
@@ -217,7 +255,9 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
   return {(1.0 - share) * low.change + share * high.change,
           (1.0 - share) * low.error + share * high.error,
           (1.0 - share) * low.softer + share * high.softer,
-          (1.0 - share) * low.moving + share * high.moving, high.nodes};
+          (1.0 - share) * low.moving + share * high.moving,
+          (1.0 - share) * low.lag + share * high.lag,
+          high.nodes};
 }
 
 double swing(const SizeEffect& size, const scene::Estimates& estimates,
@@ -247,8 +287,14 @@ double swing(const SizeEffect& size, const scene::Estimates& estimates,
     found = contact / force * contact / (contact + body) * upright * estimates.rate / frequency *
             started;
   } while (found - before > settled * found);
-  // Such a mass never moves towards the finger: at most the formula's force acts.
-  return std::min(found, 1.0 / (1.0 + change) - 1.0);
+  // A body that lags behind has yielded less, and never moves towards the finger: the force is at
+  // most that of the contact in series with what it yields in time.
+  const double yielded = (1.0 - size.lag) * (indented - depth);
+  const double most = numerics::root({1.0, 1.0 / (1.0 + change)}, [&](double force_ratio) {
+                        const double root = std::cbrt(force_ratio);
+                        return depth * root * root + yielded * force_ratio - indented;
+                      }).high;
+  return std::min(found, most - 1.0);
 }
 
 }  // namespace palpate::run

@@ -25,6 +25,7 @@ struct SizeEffect {
   double error = 0.0;   // the mesh's own, a fraction of its force
   double softer = 0.0;  // the change, or that of Hertz's force where no formula applies
   double moving = 0.0;  // m^3, what moves as far as the body is softer by that            [swing]
+  double lag = 0.0;     // the part of that by which the body lags behind in the press   [swing]
   int nodes = 0;        // 0 if there is no mesh, or no solution on it
 };
 
@@ -34,9 +35,10 @@ struct SizeEffect {
 // The formula is Hertz's where the surface's curvature is known, else the change is 0; on a cuboid
 // of several flat layers it is their exact law [sides], so that the change is that of the sides. At
 // the place that changes most along slides. Kept in `shapes` for travels and Poisson's ratios
-// nearby: travels are rounded up by less than sqrt(2), and ratios are interpolated.
+// nearby: travels are rounded up by less than sqrt(2), and ratios are interpolated. `seconds` is
+// the time of the quickest press, infinite at rest.
 [[nodiscard]] SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& folder,
-                                     const scene::SurfaceTouch& touch,
+                                     const scene::SurfaceTouch& touch, double seconds,
                                      scene::SpecimenShapes& shapes);
 
 // By how much such a body swings about its static force, relative to it, where the finger starts

@@ -90,7 +90,7 @@ class SpecimenShapes {
                     SpecimenShapes& from);
 
   // Numbers that follow from a key alone, made by `make` if they are not there yet.
-  using Numbers = std::array<double, 5>;
+  using Numbers = std::array<double, 6>;
   const Numbers& kept_numbers(const std::string& key, const std::function<Numbers()>& make);
 
   // How long the shape of this scenario with its fit took to make, and all shapes so far, s.

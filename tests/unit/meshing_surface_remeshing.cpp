@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "geometry/body.h"
+#include "geometry/box_tree.h"
+#include "geometry/cuboid.h"
 #include "geometry/shapes.h"
 #include "meshing/surface_repair.h"
 #include "meshing/tetgen_body.h"
@@ -83,6 +85,27 @@ TEST(FineSurface, KeepsItsFlatSidesFlat) {
       ends += 0.5 * geometry::twice_area(coarse->surface, static_cast<int>(t)).norm();
   }
   EXPECT_NEAR(ends / (2.0 * std::numbers::pi * 0.03 * 0.03), 1.0, 0.03);
+}
+
+// A large plate whose creases need several tries, all but the first from a finer surface of its
+// own.
+TEST(FineSurface, KeepsTheCreasesOfALargePlate) {
+  Surface plate = geometry::box_surface({0.1, 0.1, 0.006}, {104, 104, 2});
+  ASSERT_GT(plate.triangles.size(), 40000u);
+  const auto folded = [](double along) { return 4.0 * std::abs(along - std::round(along)) - 1.0; };
+  for (Vec3& vertex : plate.vertices)
+    vertex.z() += 1e-3 * folded(vertex.x() / 0.0173 + vertex.y() / 0.1) +
+                  0.7e-3 * folded(vertex.y() / 0.023 + vertex.x() / 0.06);
+  constexpr double spacing = 13e-3;
+  const auto coarse = remeshed(plate, spacing);
+  ASSERT_TRUE(coarse.has_value());
+  check_closed(coarse->surface, "coarse");
+  EXPECT_LT(coarse->surface.triangles.size(), plate.triangles.size() / 10);
+  EXPECT_NEAR(volume(coarse->surface) / volume(plate), 1.0, 0.005);
+  EXPECT_LE(coarse->distance, remeshing_limit(plate, spacing));
+  const geometry::BoxTree tree(coarse->surface);
+  for (const Vec3& vertex : plate.vertices)
+    ASSERT_LE(std::sqrt(tree.nearest(vertex).distance_squared), remeshing_limit(plate, spacing));
 }
 
 TEST(FineSurface, BecomesCoarserWithTheSameVolume) {
