@@ -152,7 +152,6 @@ class Chooser {
     // Independent springs get the stiffness of a prism whatever the shape: measured on the
     // ligament (22 %) and the leg (40 %).
     const bool uneven = bonded || scene::several_tissues(asked_) || !prism;
-    constexpr double even_error = 0.001;
     constexpr double shape_error = 0.4;
     const double meshed = std::max(scene::bonded_mesh_error(asked_), parts_error());
     const double stiffening =
@@ -160,7 +159,7 @@ class Chooser {
     const double ratio_error =
         !prism   ? shape_error
         : uneven ? std::max(0.5 * std::abs(nu - 0.25), std::abs(1.0 - 1.0 / stiffening)) + meshed
-                 : even_error;
+                 : least_error;
     ask(Asked::uniform, 1.0, 0.5);
     ask(Asked::ratio_matters, ratio_error, tolerance(), "",
         !prism   ? "error of independent springs on a shape that is no prism"
@@ -173,7 +172,7 @@ class Chooser {
           "share of the strain by which it vibrates");
     choice_.found.inertia_matters = moving;
     const auto error_of_still = [&](const ModelTraits& traits) {
-      return traits.own_ratio ? even_error + std::max(uneven ? traits.uneven : 0.0, meshed)
+      return traits.own_ratio ? least_error + std::max(uneven ? traits.uneven : 0.0, meshed)
                               : ratio_error;
     };
     for (const ModelTraits& traits : scenario::model_table)
@@ -386,14 +385,13 @@ class Chooser {
   // that is never quite as small as a contact law assumes.
   [[nodiscard]] double of_depth(const ModelTraits& traits, const Found& found) const {
     using Depth = scenario::Contact::Depth;
-    constexpr double least = 1e-3;
     const Estimates& e = choice_.expected;
     const auto depth = case_.scenario.contact.depth.value_or(
         found.depth_matters ? Depth::neo_hookean : Depth::hertz);
     const bool used = depth == Depth::neo_hookean && has_depth_ratio();
     const double waves = computes_waves(traits, found) ? e.inertia : 0.0;
     const double in_waves = e.depth_ratio ? waves / (1.0 + waves) * e.deep_bound : 0.0;
-    return std::max(least, (used ? 0.0 : std::abs(e.deep)) + e.deep_error + in_waves);
+    return std::max(least_error, (used ? 0.0 : std::abs(e.deep)) + e.deep_error + in_waves);
   }
 
   // All of the effect where the model does not move, or its mesh does not carry the waves; else a
@@ -493,8 +491,9 @@ class Chooser {
     if (!choice_.given) model_ = choice_.otherwise.model;
   }
 
-  static constexpr double far_sides = 4.0;  // thicknesses, of which exp(-1.2) leaves 0.8 %
-  static constexpr double unknown = 1.0;    // the error where nothing is known
+  static constexpr double far_sides = 4.0;      // thicknesses, of which exp(-1.2) leaves 0.8 %
+  static constexpr double least_error = 0.001;  // of a formula, and of an even strain
+  static constexpr double unknown = 1.0;        // the error where nothing is known
 
   const scenario::Case& case_;
   SpecimenShapes& shapes_;

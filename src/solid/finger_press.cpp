@@ -75,7 +75,7 @@ bool mirrored(std::span<const Vec3> points, int axis, double near) {
 }
 
 // What a share of the gap may add to the force before it is found anew.
-constexpr double enough_excess = 0.01;
+constexpr double enough_excess = error_of_two_meshes;
 
 }  // namespace
 
