@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include "base/index.h"
+#include "geometry/box_tree.h"
 
 namespace palpate::meshing::tetgen_library {
 namespace {
@@ -53,11 +57,12 @@ geometry::TetMesh taken(const tetgenio& io) {
 // The size that TetGen's callback asks for; the child process exists for one mesh only.
 const std::function<double(const Vec3&)>* wanted_size = nullptr;
 
+constexpr double longest = 2.2;
+
 // Whether a tetrahedron is too large: by its volume, that of a regular one with the wanted edges
 // being 0.118, or by its longest edge.
 bool too_large(double* a, double* b, double* c, double* d, double*, double) {
   constexpr double largest = 0.26;
-  constexpr double longest = 2.2;
   const std::array<Vec3, 4> corner{Vec3(a[0], a[1], a[2]), Vec3(b[0], b[1], b[2]),
                                    Vec3(c[0], c[1], c[2]), Vec3(d[0], d[1], d[2])};
   const double size = (*wanted_size)(0.25 * (corner[0] + corner[1] + corner[2] + corner[3]));
@@ -70,24 +75,77 @@ bool too_large(double* a, double* b, double* c, double* d, double*, double) {
   return volume > largest * size * size * size || most > longest * size;
 }
 
+// TetGen gives a tetrahedron up where a new node at the centre of its sphere would come too near to
+// the surface: below a contact on a bent surface a few hundred may stay twenty times as long as
+// they should. The middles of what such tetrahedra are halved into, apart from each other and from
+// the surface.
+std::vector<Vec3> nodes_inside(const geometry::TetMesh& mesh, const geometry::BoxTree& surface,
+                               const std::function<double(const Vec3&)>& size) {
+  constexpr double given_up = 2.0 * longest;
+  constexpr double apart = 0.7;
+  std::vector<Vec3> found;
+  std::vector<std::array<Vec3, 4>> pieces;
+  for (const auto& corners : mesh.tetrahedra) {
+    pieces.emplace_back();
+    for (std::size_t i = 0; i < 4; ++i) pieces.back()[i] = mesh.nodes[as_index(corners[i])];
+    bool whole = true;
+    while (!pieces.empty()) {
+      const std::array<Vec3, 4> piece = pieces.back();
+      pieces.pop_back();
+      const Vec3 middle = 0.25 * (piece[0] + piece[1] + piece[2] + piece[3]);
+      std::array<std::size_t, 2> edge{0, 1};
+      for (const auto& [i, j] : geometry::corner_edges)
+        if ((piece[as_index(i)] - piece[as_index(j)]).norm() >
+            (piece[edge[0]] - piece[edge[1]]).norm())
+          edge = {as_index(i), as_index(j)};
+      const double wanted = size(middle);
+      const double length = (piece[edge[0]] - piece[edge[1]]).norm();
+      if (whole && length <= given_up * wanted) break;
+      whole = false;
+      if (length > wanted) {
+        for (const std::size_t end : edge) {
+          pieces.push_back(piece);
+          pieces.back()[end] = 0.5 * (piece[edge[0]] + piece[edge[1]]);
+        }
+        continue;
+      }
+      const double least = apart * apart * wanted * wanted;
+      if (surface.nearest(middle).distance_squared < least) continue;
+      if (std::none_of(found.begin(), found.end(),
+                       [&](const Vec3& other) { return (other - middle).squaredNorm() < least; }))
+        found.push_back(middle);
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 PieceMesh run(const Pieces& pieces, const std::function<double(const Vec3&)>& size,
               const std::string& switches) {
-  tetgenio in;
-  tetgenio out;
-  fill(in, pieces.surface);
-  in.facetmarkerlist = new int[pieces.numbers.size()];
-  std::copy(pieces.numbers.begin(), pieces.numbers.end(), in.facetmarkerlist);
   wanted_size = &size;
-  in.tetunsuitable = &too_large;
+  const geometry::BoxTree tree(pieces.surface);
+  geometry::Surface filled = pieces.surface;
   std::string quiet = "Q" + switches;
-  tetrahedralize(quiet.data(), &in, &out);
-  PieceMesh made{taken(out), {}, {}};
-  for (int f = 0; f < out.numberoftrifaces; ++f) {
-    const int* corner = out.trifacelist + 3 * f;
-    made.faces.push_back({corner[0], corner[1], corner[2]});
-    made.numbers.push_back(out.trifacemarkerlist[f]);
+  constexpr int most_times = 4;
+  PieceMesh made;
+  for (int times = 0; times < most_times; ++times) {
+    tetgenio in;
+    tetgenio out;
+    fill(in, filled);
+    in.facetmarkerlist = new int[pieces.numbers.size()];
+    std::copy(pieces.numbers.begin(), pieces.numbers.end(), in.facetmarkerlist);
+    in.tetunsuitable = &too_large;
+    tetrahedralize(quiet.data(), &in, &out);
+    made = {taken(out), {}, {}};
+    for (int f = 0; f < out.numberoftrifaces; ++f) {
+      const int* corner = out.trifacelist + 3 * f;
+      made.faces.push_back({corner[0], corner[1], corner[2]});
+      made.numbers.push_back(out.trifacemarkerlist[f]);
+    }
+    const std::vector<Vec3> inside = nodes_inside(made.mesh, tree, size);
+    if (inside.empty()) break;
+    filled.vertices.insert(filled.vertices.end(), inside.begin(), inside.end());
   }
   return made;
 }
