@@ -513,7 +513,8 @@ TEST(Estimates, OfTheDefaultBlock) {
 TEST(Choose, ABodyOfSeveralPartsIsMeasured) {
   const Choice found = choose(read(
       "[tissue]\nmaterial = \"upper_leg\"\nshape = { kind = \"layered_limb\" }\n[[region]]\nkind = "
-      "\"tagged\"\ntag = 1\nmaterial = \"upper_leg\"\n[[step]]\nto = \"1 mm\"\nrate = \"1 mm/s\"\n"));
+      "\"tagged\"\ntag = 1\nmaterial = \"upper_leg\"\n[[step]]\nto = \"1 mm\"\nrate = \"1 "
+      "mm/s\"\n"));
   EXPECT_TRUE(found.expected.measured);
   EXPECT_LT(found.forecast(Model::coupled_springs)->error, 0.2);
 }
