@@ -111,6 +111,7 @@ class Words {
 
   // What the model leaves out, the largest first.
   std::vector<Neglected> all_neglected() {
+    other_laws();
     if (scene_.scenario.uniform()) {
       large_uniform_strain();
     } else {
@@ -300,6 +301,19 @@ class Words {
     if (one_way()) remedy += " and remove `contact.coupling`";
     omit("viscosity", e_.viscous, would_change(e_.viscous) + " while pressing", remedy,
          "viscosity");
+  }
+
+  // A body has one law of time, the tissue's.                    docs/theory.md [one_matrix]
+  void other_laws() {
+    const scenario::Resolved& scenario = scene_.scenario;
+    const bool elastic = scenario.uniform() ? scenario.tissue.law.kind == tissue::Viscosity::none
+                                            : scene_.relaxation.elastic();
+    if (elastic || std::none_of(scenario.regions.begin(), scenario.regions.end(),
+                                [](const auto& region) { return region.other_law; }))
+      return;
+    omit("the viscosity of the material of a `[[region]]`", 1.0,
+         "which takes that of `tissue`; what this changes is not known",
+         "set one law of time for all tissues", "the regions' own viscosity");
   }
 
   // The contact relaxes as if the finger stayed where it is.

@@ -207,6 +207,11 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   error_ *= std::max(1.0, solid::most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   error_ += now_.excess;  // the share is that of the deepest travel
+  // Ball and tissue meet at a surface between their shapes at rest.        docs/theory.md
+  // [solid_force]
+  constexpr double counted = 0.8;
+  error_ += counted * (1.0 - presses_.front()->settled_share()) *
+            std::pow(touch.travel / scene_->finger.sphere_radius, 2);
   touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();
   if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();
   touch.contacts.resize(now_.force > 0.0 ? 1 : 0);

@@ -81,6 +81,29 @@ Resolved::Solver resolve_solver(const Scenario& asked, const ModelTraits& traits
 
 }  // namespace
 
+namespace {
+
+// Whether a region's material has other times of viscosity than the tissue has in its law.
+bool relaxes_otherwise(const material::Tissue& own, const Tissue& tissue) {
+  const auto other = [](const std::optional<material::Sourced>& value,
+                        const std::optional<double>& used) {
+    return value && used && value->value != *used;
+  };
+  switch (tissue.viscosity) {
+    case tissue::Viscosity::kelvin_voigt:
+      return other(own.retardation_time, tissue.retardation_time);
+    case tissue::Viscosity::standard_linear_solid:
+      return other(own.relaxation_time, tissue.relaxation_time) ||
+             other(own.instantaneous_ratio, tissue.instantaneous_ratio);
+    case tissue::Viscosity::none:
+    case tissue::Viscosity::nodal_drag:
+    case tissue::Viscosity::prony: break;
+  }
+  return false;
+}
+
+}  // namespace
+
 Scenario filled(const Case& one) {
   Scenario all = one.scenario;
   const material::Tissue& material = one.materials.tissue;
@@ -127,10 +150,13 @@ Resolved resolve(const Case& one, Model model, const Found& found) {
                     {all.finger, all.finger.density.value_or(0.0), {}},
                     resolve_contact(all, found),
                     resolve_solver(all, traits(model), found)};
-  for (const Region& region : all.regions)
+  for (std::size_t i = 0; i < all.regions.size(); ++i) {
+    const Region& region = all.regions[i];
     resolved.regions.push_back({region,
                                 {*region.density, *region.young_modulus,
-                                 region.poisson_ratio.value_or(*tissue.poisson_ratio)}});
+                                 region.poisson_ratio.value_or(*tissue.poisson_ratio)},
+                                relaxes_otherwise(one.materials.regions[i], tissue)});
+  }
   if (all.finger.young_modulus && all.finger.poisson_ratio && !all.finger.rigid())
     resolved.finger.elastic = {*all.finger.young_modulus, *all.finger.poisson_ratio};
   return resolved;

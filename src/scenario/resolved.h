@@ -25,7 +25,9 @@ struct Resolved : PlainScenario {
 
     [[nodiscard]] bool held_from_below() const { return base_up.z() == 1.0; }
   };
-  struct Region : PlainRegion, Substance {};
+  struct Region : PlainRegion, Substance {
+    bool other_law = false;  // its material relaxes otherwise than the tissue, whose law it takes
+  };
   struct Finger : PlainFinger {
     double density = 0.0;                     // kg/m^3
     std::optional<contact::Elastic> elastic;  // none if rigid, and in a uniform test

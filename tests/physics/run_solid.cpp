@@ -65,7 +65,8 @@ TEST_P(SolidCases, AreWithinWhatOneMeshStates) {
   ASSERT_EQ(record.outcome, record::Outcome::completed) << record.reason;
   EXPECT_NEAR(record.contact.back().contact_force, wanted, 0.03 * wanted);
   // An elastic finger adds what its share of the gap may.
-  EXPECT_NEAR(test::found(record, "stated_error"), 0.03, 0.0005);
+  EXPECT_GE(test::found(record, "stated_error"), 0.03 - 1e-12);
+  EXPECT_LT(test::found(record, "stated_error"), 0.033);
 }
 
 // The witness is good to 0.2 %, and three meshes state at least 0.5 %.
@@ -245,6 +246,27 @@ TEST(Solid, AnElasticFingerOnASkinThatBendsIsThatOfTheStack) {
   for (const char* finger : {"20 kPa", "100 kPa"}) {
     const double stack = force("layer", finger);
     EXPECT_NEAR(force("solid", finger), 1.035 * stack, 0.02 * stack) << finger;
+  }
+}
+
+// Deep presses by a finger not much stiffer than the tissue, beside CalculiX (axisymmetric, CAX8,
+// NLGEOM, a half-ball held at its equator): 0.7715 N, and 0.6703 N of one of 15 kPa.
+TEST(Solid, DeepPressesByAnElasticFingerStateMore) {
+  for (const auto& [finger, force] : {std::pair("30 kPa", 0.7715), std::pair("15 kPa", 0.6703)}) {
+    const record::CaseRecord record = test::run_text(
+        "[tissue]\nyoung_modulus = \"9 kPa\"\npoisson_ratio = 0.45\nviscosity = \"none\"\n"
+        "shape = { kind = \"disc\", radius = \"60 mm\", height = \"25 mm\" }\n[finger]\nradius = "
+        "\"10 mm\"\npoisson_ratio = 0.45\n[[step]]\nto = \"6 mm\"\nrate = \"6 mm/s\"\n[output]\n"
+        "interval = \"500 ms\"\npressure_maps = false\nforce_at = [\"1 mm\"]\n",
+        {"solver.model=solid", std::string("finger.young_modulus=") + finger});
+    const double off = record.contact.back().contact_force / force - 1.0;
+    EXPECT_LT(off, -0.03) << finger;  // more than one mesh states
+    EXPECT_LT(std::abs(off), test::found(record, "stated_error")) << finger;
+    EXPECT_LT(test::found(record, "stated_error"), 0.2) << finger;
+    EXPECT_TRUE(std::any_of(record.warnings.begin(), record.warnings.end(), [](const auto& one) {
+      return one.find("grows with the inverse of the displacement, to about 18 %") !=
+             std::string::npos;
+    }));
   }
 }
 

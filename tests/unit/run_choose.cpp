@@ -508,6 +508,22 @@ TEST(Estimates, OfTheDefaultBlock) {
 }
 
 // The bodies of cases/bodies and their kind: a hollow one is no half-space, whatever its box.
+// A region of chen2007's muscle has another retardation time than skin.
+TEST(Choose, ARegionsOwnLawOfTimeIsKnownNotToBeUsed) {
+  const auto other = [](const std::string& viscosity) {
+    return scenario::resolve(
+               read("[tissue]\nmaterial = \"skin\"\nviscosity = \"" + viscosity +
+                    "\"\n[[region]]\nkind = \"slab\"\nbottom = \"0 mm\"\ntop = \"3 mm\"\n"
+                    "material = \"muscle\"\n" +
+                    press),
+               Model::solid)
+        .regions.front()
+        .other_law;
+  };
+  EXPECT_TRUE(other("kelvin_voigt"));
+  EXPECT_FALSE(other("none"));
+}
+
 // The surface of a limb of three parts has more nodes than the coarse mesh of other bodies: it is
 // measured on a finer one. (Nothing had been, and Hertz's formula taken with 100 % of error.)
 TEST(Choose, ABodyOfSeveralPartsIsMeasured) {
