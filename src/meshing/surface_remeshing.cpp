@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/child_process.h"
 #include "base/error.h"
@@ -271,10 +272,11 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
       std::vector<Vec3> wrong;
       // The solid's meshes, whose forces may hang on a detail, all begin from the given surface.
       const bool again = i > 0 && looser <= 1.0;
-      std::optional<Surface> made = uneven && !by_place           ? attempt.even()
-                                    : by_place && i == 0 && first ? std::move(first)
-                                    : again                       ? attempt.collapsed_again()
-                                                                  : attempt.collapsed();
+      std::optional<Surface> made = uneven && !by_place ? attempt.even()
+                                    : by_place && i == 0 && first
+                                        ? std::exchange(first, std::nullopt)
+                                    : again ? attempt.collapsed_again()
+                                            : attempt.collapsed();
       if (made && !made->triangles.empty()) {
         if (i == 0 && !by_place && !uneven) first = made;
         flatten_sides(surface, attempt.longest(), *made);

@@ -434,7 +434,7 @@ std::string find(const std::string& given) {
 }
 
 std::string file_of(const std::string& given) {
-  const std::string found = find(given);
+  std::string found = find(given);
   const fs::path path(given);
   std::error_code error;
   if (found != given || given == "-" || path.has_parent_path() || path.has_extension() ||
