@@ -135,8 +135,10 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
               {"models", Json::array()}};
   if (expected.answer.stated_error) object["error"] = *expected.answer.stated_error;
   for (const run::Neglected& one : expected.neglected)
-    object["neglected"].push_back(
-        {{"effect", one.what}, {"change", one.change}, {"text", one.when}, {"remedy", one.remedy}});
+    object["neglected"].push_back({{"effect", one.what},
+                                   {"change", one.change ? Json(*one.change) : Json()},
+                                   {"text", one.when},
+                                   {"remedy", one.remedy}});
   for (const scene::Question& one : scene.choice.questions)
     object["criteria"].push_back({{"topic", one.asked},
                                   {"measure", one.measure},

@@ -125,7 +125,7 @@ class Words {
       waves();
     }
     std::stable_sort(all_.begin(), all_.end(), [](const Neglected& a, const Neglected& b) {
-      return std::abs(a.change) > std::abs(b.change);
+      return std::abs(a.change.value_or(HUGE_VAL)) > std::abs(b.change.value_or(HUGE_VAL));
     });
     return std::move(all_);
   }
@@ -141,7 +141,7 @@ class Words {
     return contact::mesh_is_tissue(scene_.scenario.contact.coupling);
   }
   [[nodiscard]] bool follows_hertz() const { return !scene_.scenario.uniform() && one_way(); }
-  void omit(const std::string& what, double change, const std::string& when,
+  void omit(const std::string& what, std::optional<double> change, const std::string& when,
             const std::string& remedy = "", const std::string& beside = "") {
     all_.push_back({what, change, when, remedy, beside});
   }
@@ -311,7 +311,7 @@ class Words {
     if (elastic || std::none_of(scenario.regions.begin(), scenario.regions.end(),
                                 [](const auto& region) { return region.other_law; }))
       return;
-    omit("the viscosity of the material of a `[[region]]`", 1.0,
+    omit("the viscosity of the material of a `[[region]]`", std::nullopt,
          "which takes that of `tissue`; what this changes is not known",
          "set one law of time for all tissues", "the regions' own viscosity");
   }

@@ -182,8 +182,7 @@ class Chooser {
 
   // What a mesh misses of a specimen of several tissues between platens, by another with shorter or
   // longer cells: stresses are singular where borders of tissues meet the free side, so that the
-  // error goes with the length of the cells, or more slowly.       docs/theory.md, below
-  // [compression]
+  // error goes with the length of the cells, or more slowly.     docs/theory.md [compression]
   [[nodiscard]] double parts_error() {
     scenario::Resolved other = asked_;
     scenario::Mesh& mesh = other.tissue.mesh;
@@ -201,9 +200,8 @@ class Chooser {
       tetgen->tetrahedra.reset();
     }
     try {
-      const double change_of_modulus =
-          std::abs(platen_modulus(other) / platen_modulus(asked_) - 1.0);
-      return finer > 1.0 ? 2.0 * change_of_modulus : change_of_modulus;
+      const double difference = std::abs(platen_modulus(other) / platen_modulus(asked_) - 1.0);
+      return finer > 1.0 ? 2.0 * difference : difference;
     } catch (const MeshError&) {   // the models that mesh the body say why,
     } catch (const InputError&) {  // and where the mistake stands
     }

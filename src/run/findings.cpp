@@ -19,7 +19,6 @@
 #include "scene/first_touch.h"
 #include "scene/places.h"
 #include "scene/proportions.h"
-#include "solid/finger_press.h"
 #include "tissue/coupled.h"
 #include "tissue/network.h"
 
@@ -223,7 +222,7 @@ class Findings {
     add("peak_indentation_mm", unit::mm.from_si(peak.indentation));
     add("peak_travel_mm", unit::mm.from_si(peak.travel));
     for (const double depth : scene_.scenario.output.force_at) force_at(depth);
-    less_deep();
+    less_deep(peak.mesh_error);
     add("local_curvature_per_m", 1.0 / peak.tissue_radius);
     add("depth_ratio", peak.indentation / radius);
     add("contact_radius_ratio", peak.contact_radius / radius);
@@ -253,16 +252,18 @@ class Findings {
   }
 
   // Meshes of `solid` are made for the deepest displacement.      docs/theory.md [solid_force]
-  void less_deep() {
+  void less_deep(double at_most) {
     const std::vector<double>& asked = scene_.scenario.output.force_at;
-    const double deepest = scene::deepest_travel(scene_.scenario, scene_.law());
     if (!traits_.solid || asked.empty()) return;
     const double least = *std::min_element(asked.begin(), asked.end());
-    const double error = solid::error_of_one_mesh * deepest / least;
-    if (least < 0.5 * deepest)
+    const auto row = std::find_if(record_.contact.begin(), record_.contact.end(),
+                                  [&](const auto& one) { return one.indentation >= least; });
+    if (row == record_.contact.end()) return;
+    const double error = row->mesh_error * row->indentation / least;
+    if (error > 1.5 * at_most)
       warning("the error of `solid` grows with the inverse of the displacement, to about " +
               percent_text(error) + " of the force at " + quantity_text(least, unit::mm) +
-              "; a run that ends there has " + percent_text(solid::error_of_one_mesh));
+              "; a run that ends there has a smaller one");
   }
 
   void force_at(double depth) {

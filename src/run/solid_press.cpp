@@ -184,8 +184,9 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
     return std::nullopt;
   };
   try {
+    presses_.front()->settle_share();
     for (const auto& press : presses_) {
-      if (press != presses_.front()) press->take_share(presses_.front()->settled_share());
+      press->take_share(presses_.front()->share());
       if (auto wrong = take(*press)) return wrong;
     }
   } catch (const MeshError&) {  // at a place of a slide
@@ -207,10 +208,9 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   error_ *= std::max(1.0, solid::most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   error_ += now_.excess;  // the share is that of the deepest travel
-  // Ball and tissue meet at a surface between their shapes at rest.        docs/theory.md
-  // [solid_force]
+  // Ball and tissue meet between their shapes at rest.            docs/theory.md [solid_force]
   constexpr double counted = 0.8;
-  error_ += counted * (1.0 - presses_.front()->settled_share()) *
+  error_ += counted * (1.0 - presses_.front()->share()) *
             std::pow(touch.travel / scene_->finger.sphere_radius, 2);
   touch.finger = body().first_touch + way.start - touch.travel * Vec3::UnitZ();
   if (way.start != way.end) touch.finger += way.along * (way.end - way.start).normalized();

@@ -79,15 +79,13 @@ Resolved::Solver resolve_solver(const Scenario& asked, const ModelTraits& traits
                                                  : Integrator::central_difference)};
 }
 
-}  // namespace
-
-namespace {
-
-// Whether a region's material has other times of viscosity than the tissue has in its law.
-bool relaxes_otherwise(const material::Tissue& own, const Tissue& tissue) {
+// Whether a region's material has another law of time than the tissue. A region that gives a
+// modulus of its own and no material has none.
+bool relaxes_otherwise(const Region& region, const material::Tissue& own, const Tissue& tissue) {
+  if (region.young_modulus && region.material == Region{}.material) return false;
   const auto other = [](const std::optional<material::Sourced>& value,
                         const std::optional<double>& used) {
-    return value && used && value->value != *used;
+    return used && !(value && value->value == *used);
   };
   switch (tissue.viscosity) {
     case tissue::Viscosity::kelvin_voigt:
@@ -152,10 +150,11 @@ Resolved resolve(const Case& one, Model model, const Found& found) {
                     resolve_solver(all, traits(model), found)};
   for (std::size_t i = 0; i < all.regions.size(); ++i) {
     const Region& region = all.regions[i];
-    resolved.regions.push_back({region,
-                                {*region.density, *region.young_modulus,
-                                 region.poisson_ratio.value_or(*tissue.poisson_ratio)},
-                                relaxes_otherwise(one.materials.regions[i], tissue)});
+    resolved.regions.push_back(
+        {region,
+         {*region.density, *region.young_modulus,
+          region.poisson_ratio.value_or(*tissue.poisson_ratio)},
+         relaxes_otherwise(one.scenario.regions[i], one.materials.regions[i], tissue)});
   }
   if (all.finger.young_modulus && all.finger.poisson_ratio && !all.finger.rigid())
     resolved.finger.elastic = {*all.finger.young_modulus, *all.finger.poisson_ratio};

@@ -33,10 +33,8 @@ double fastest_rate(const scenario::Resolved& scenario) {
   return rate;
 }
 
-// In a ramp of duration T, Kelvin-Voigt increases the force by tau F'/F = 3/2 tau/T, and a branch
-// of ratio b by about b x (1 - exp(-1/x)), x = tau/T.
-// Of a force that grows with the power 3/2 of time:
-//   int_0^1 3/2 sqrt(s) exp(-(1 - s)/y) ds,   y = tau / duration
+// What a branch of a time tau keeps of a force that grows with the power 3/2 of time, y = tau/T:
+//   int_0^1 3/2 sqrt(s) exp(-(1 - s)/y) ds
 double unrelaxed(double y) {
   constexpr double short_time = 0.02;
   if (y < short_time) return 1.5 * y * (1.0 - 0.5 * y);
@@ -49,6 +47,8 @@ double unrelaxed(double y) {
   return sum;
 }
 
+// In a ramp of duration T, Kelvin-Voigt increases the force by tau F'/F = 3/2 tau/T, and a branch
+// by its ratio times what it keeps.
 double viscous_effect(const scenario::Resolved::Tissue& tissue, double duration) {
   if (duration <= 0.0) return 0.0;
   double sum = 1.5 * tissue.law.time / duration;

@@ -115,26 +115,25 @@ void FingerPress::make() {
   begin(order_.in_steps);
 }
 
-double FingerPress::wider(double travel) {
+FingerPress::Mismatch FingerPress::mismatch(double travel) {
   const double own = tissue_travel(travel);
-  if (tissue_.points.empty() || ball_.points.empty()) return 1.0;
+  if (tissue_.points.empty() || ball_.points.empty()) return {};
   Pairs ball;
   for (const Point& point : ball_.points)
     ball.emplace_back(point.travel / upright(), point.moment.spread);
-  return between(of_tissue(&Moment::spread), own, 0.5) / between(ball, travel - own, 0.5);
-}
-
-double FingerPress::excess(double ratio) const {
-  return 1.5 * order_.share * (1.0 - order_.share) * std::pow(std::log(ratio), 2);
+  const double wider =
+      between(of_tissue(&Moment::spread), own, 0.5) / between(ball, travel - own, 0.5);
+  const double part = own / travel;
+  return {wider, 1.5 * part * (1.0 - part) * std::pow(std::log(wider), 2)};
 }
 
 // Half-spaces would take the cube, which overshoots on a body whose curvature matters less.
-double FingerPress::better_share(double ratio) const {
-  const double odds = order_.share / (1.0 - order_.share) * ratio * ratio;
+double FingerPress::better_share(double wider) const {
+  const double odds = order_.share / (1.0 - order_.share) * wider * wider;
   return odds / (1.0 + odds);
 }
 
-double FingerPress::settled_share() {
+void FingerPress::settle_share() {
   constexpr int most_times = 5;
   double before = order_.share;
   double farthest = 0.0;
@@ -146,15 +145,14 @@ double FingerPress::settled_share() {
       make();
       break;
     }
-    const double ratio = wider(end);
-    if (excess(ratio) <= enough_excess) break;
+    const Mismatch found = mismatch(end);
+    if (found.excess <= enough_excess) break;
     before = order_.share;
     farthest = end;
-    order_.share = better_share(ratio);
+    order_.share = better_share(found.wider);
     make();
   }
   settled_ = true;
-  return order_.share;
 }
 
 void FingerPress::take_share(double share) {
@@ -508,7 +506,7 @@ std::optional<Moment> FingerPress::at_travel(double travel, const Vec3& place) {
     return found;
   }
   if (!(travel > 0.0)) return Moment{};
-  (void)settled_share();
+  settle_share();
   auto found = on_curve(travel);
   if (!found || !order_.ball || order_.shallower) return found;
   if (!has_knots_) find_knots();
@@ -543,7 +541,7 @@ void FingerPress::find_knots() {
     if (!own || own->excess <= enough_excess) continue;
     FingerOrder order = order_;
     order.deepest = travel;
-    order.share = better_share(wider(travel));
+    order.share = better_share(mismatch(travel).wider);
     order.shallower = true;
     Knot knot{travel, std::make_unique<FingerPress>(std::move(order)), {}};
     const auto best = knot.press->at_travel(travel);
@@ -571,7 +569,7 @@ std::optional<Moment> FingerPress::on_curve(double travel) {
   };
   Moment found{now(&Moment::force, 1.5), now(&Moment::contact_radius, 0.5),
                now(&Moment::peak_pressure, 0.5), near.moment.touching};
-  if (order_.ball) found.excess = excess(wider(travel));
+  if (order_.ball) found.excess = mismatch(travel).excess;
   return found;
 }
 

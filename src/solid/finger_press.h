@@ -61,9 +61,7 @@ struct Moment {
 // An elastic finger is a ball of its own radius: each body takes its share of the curvature of the
 // gap between them, ball and tissue are pressed by the rigid surface between their shares, and
 // their travels at equal forces add. Of all shares those have the least energy, and so the force,
-// with which the pressures on both are equally wide.
-//                                                                        docs/theory.md
-//                                                                        [solid_force]
+// with which the pressures on both are equally wide.               docs/theory.md [solid_force]
 class FingerPress {
  public:
   // What the order points to must outlive the call. Throws MeshError.
@@ -78,10 +76,11 @@ class FingerPress {
   [[nodiscard]] std::optional<Moment> at_slide(double travel, const Vec3& start, const Vec3& end,
                                                double slid);
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  // The tissue's share of the gap, which is found by some presses to the deepest travel. The
-  // order's if the finger is rigid. Throws MeshError, Stopped.
-  [[nodiscard]] double settled_share();
+  // Finds the tissue's share of the gap by some presses to the deepest travel; it is the order's if
+  // the finger is rigid. Throws MeshError, Stopped.
+  void settle_share();
   void take_share(double share);  // of another mesh. Throws MeshError.
+  [[nodiscard]] double share() const { return order_.share; }
   // Whether a wall gives way, as far as the curve has been found, so that it has sixteen points.
   [[nodiscard]] bool buckles() const { return in_steps_ && !(order_.in_steps && is_power_law()); }
   // The displacements (m) between which the force falls first, as far as the curve has been found:
@@ -151,11 +150,14 @@ class FingerPress {
     Moment factor;
   };
   void find_knots();
-  // The width of the pressure on the tissue over that on the ball at a travel.
-  [[nodiscard]] double wider(double travel);
-  // What the share of the gap adds to the force of two half-spaces whose pressures differ so.
-  [[nodiscard]] double excess(double ratio) const;
-  [[nodiscard]] double better_share(double ratio) const;
+  // At a travel: the width of the pressure on the tissue over that on the ball, and what that adds
+  // to the force, a fraction; of two half-spaces.                  docs/theory.md [solid_force]
+  struct Mismatch {
+    double wider = 1.0;
+    double excess = 0.0;
+  };
+  [[nodiscard]] Mismatch mismatch(double travel);
+  [[nodiscard]] double better_share(double wider) const;
   [[nodiscard]] static double shared(const Pairs& tissue, const Pairs& balls, double travel,
                                      double power);
   // The force at one travel alone, with the exponent of the force there.

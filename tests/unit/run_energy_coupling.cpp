@@ -11,6 +11,7 @@
 #include "geometry/box_tree.h"
 #include "geometry/cuboid.h"
 #include "meshing/mesh_files.h"
+#include "part_of_mesh.h"
 #include "scene/first_touch.h"
 #include "scene_text.h"
 #include "temporary_folder.h"
@@ -84,22 +85,9 @@ TEST(EnergyCoupling, ALumpOfTheSameTissueIsNone) {
 std::vector<double> pressed_wall(bool another) {
   const geometry::TetMesh block =
       geometry::cuboid({0.060, 0.040, 0.040}, {12, 8, 8}, geometry::CellPattern::mirrored);
-  geometry::TetMesh walls;
-  std::vector<int> number(block.nodes.size(), -1);
-  for (auto corners : block.tetrahedra) {
-    Vec3 middle = Vec3::Zero();
-    for (const int node : corners) middle += 0.25 * block.nodes[as_index(node)];
-    if (middle.z() > 0.010 && middle.x() > 0.020 && !(another && middle.x() > 0.040)) continue;
-    for (int& node : corners) {
-      int& own = number[as_index(node)];
-      if (own < 0) {
-        own = static_cast<int>(walls.nodes.size());
-        walls.nodes.push_back(block.nodes[as_index(node)]);
-      }
-      node = own;
-    }
-    walls.tetrahedra.push_back(corners);
-  }
+  const geometry::TetMesh walls = test::part_of(block, [another](const Vec3& middle) {
+    return middle.z() < 0.010 || middle.x() < 0.020 || (another && middle.x() > 0.040);
+  });
   const test::TemporaryFolder folder;
   meshing::write_node_ele(folder / "walls.node", walls);
   const scene::Scene scene = test::first_scene(scenario::parse(

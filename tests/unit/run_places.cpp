@@ -13,6 +13,7 @@
 #include "geometry/shapes.h"
 #include "meshing/mesh_files.h"
 #include "meshing/surface_files.h"
+#include "part_of_mesh.h"
 #include "run/choose.h"
 #include "run/picture.h"
 #include "run/refined_mesh.h"
@@ -351,28 +352,13 @@ class HollowBody : public PlacedBody {
 };
 
 TEST_F(HollowBody, is_as_soft_from_a_surface_as_from_tetrahedra) {
-  geometry::TetMesh mesh =
+  const geometry::TetMesh mesh =
       geometry::cuboid({0.060, 0.060, 0.040}, {12, 12, 8}, geometry::CellPattern::mirrored);
-  std::erase_if(mesh.tetrahedra, [&](const auto& corners) {
-    Vec3 middle = Vec3::Zero();
-    for (const int node : corners) middle += 0.25 * mesh.nodes[as_index(node)];
-    return ((middle - Vec3(0.030, 0.030, 0.030)).cwiseAbs().array() <
+  const geometry::TetMesh hollow = test::part_of(mesh, [](const Vec3& middle) {
+    return ((middle - Vec3(0.030, 0.030, 0.030)).cwiseAbs().array() >=
             Vec3(0.010, 0.010, 0.005).array())
-        .all();
+        .any();
   });
-  std::vector<int> number(mesh.nodes.size(), -1);
-  geometry::TetMesh hollow;
-  for (auto corners : mesh.tetrahedra) {
-    for (int& node : corners) {
-      int& own = number[as_index(node)];
-      if (own < 0) {
-        own = static_cast<int>(hollow.nodes.size());
-        hollow.nodes.push_back(mesh.nodes[as_index(node)]);
-      }
-      node = own;
-    }
-    hollow.tetrahedra.push_back(corners);
-  }
   meshing::write_node_ele(folder_ + "/hollow.node", hollow);
   const auto [by_mesh, stated] =
       force("shape = { kind = \"as_meshed\" }\nmesh = { file = \"hollow.node\", unit = \"m\" }\n");

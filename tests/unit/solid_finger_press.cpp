@@ -293,6 +293,32 @@ TEST(FingerPress, AnElasticFingerIsABallOfItsOwnSize) {
   EXPECT_NEAR(found->force, 2965.6e-3, 0.03 * 2965.6e-3);  // finger_2050_061
 }
 
+// A share of the gap that is not that of the least energy adds to the force what is said of it; on
+// tissue as stiff as the finger nearly what two half-spaces add.
+TEST(FingerPress, SaysWhatAnotherShareOfTheGapAdds) {
+  FingerOrder order = plain();
+  order.body.shape = geometry::Cuboid{Vec3(0.096, 0.088, 0.048)};
+  order.ball = order.body.tissues.front();
+  order.share = 0.3;
+  touch(order, Vec3(0.048, 0.044, 0.048));
+  FingerPress best(order);
+  best.settle_share();
+  EXPECT_NEAR(best.share(), 0.5, 0.1);
+  const auto least = best.at_travel(order.deepest);
+  ASSERT_TRUE(least);
+  EXPECT_LE(least->excess, 0.01);
+  for (const double share : {0.2, 0.85}) {
+    FingerPress other(order);
+    other.take_share(share);
+    EXPECT_EQ(other.share(), share);
+    const auto more = other.at_travel(order.deepest);
+    ASSERT_TRUE(more);
+    const double added = more->force / least->force - 1.0;
+    EXPECT_GT(added, 0.05) << share;
+    EXPECT_NEAR(more->excess, added, 0.35 * added) << share;
+  }
+}
+
 // Of four elastic spheres every ball bears a quarter of the force, and yields by its share of
 // Hertz's depth under it. A quarter of the body is meshed, which only one of the spheres is above.
 TEST(FingerPress, SeveralElasticSpheresShareTheForce) {
