@@ -153,7 +153,7 @@ class Chooser {
     // ligament (22 %) and the leg (40 %).
     const bool uneven = bonded || scene::several_tissues(asked_) || !prism;
     constexpr double shape_error = 0.4;
-    const double meshed = std::max(scene::bonded_mesh_error(asked_), parts_error());
+    const double meshed = bonded || scene::several_tissues(asked_) ? uneven_mesh_error() : 0.0;
     const double stiffening =
         scene::bonded_stiffening(asked_, nu) / scene::bonded_stiffening(asked_, 0.25);
     const double ratio_error =
@@ -180,14 +180,15 @@ class Chooser {
     take_cheapest();
   }
 
-  // What a mesh misses of a specimen of several tissues between platens, by another with shorter or
-  // longer cells: stresses are singular where borders of tissues meet the free side, so that the
-  // error goes with the length of the cells, or more slowly.     docs/theory.md [compression]
-  [[nodiscard]] double parts_error() {
+  // What a mesh misses of a specimen of several tissues or with fixed ends, by another with shorter
+  // or longer cells: stresses are singular where borders of tissues and fixed ends meet the free
+  // side, so that the error goes with the length of the cells, or more slowly.
+  //                                                                     docs/theory.md
+  //                                                                     [compression]
+  [[nodiscard]] double uneven_mesh_error() {
     scenario::Resolved other = asked_;
     scenario::Mesh& mesh = other.tissue.mesh;
-    if (!scene::several_tissues(asked_) || std::holds_alternative<scenario::MeshFile>(mesh))
-      return 0.0;
+    if (std::holds_alternative<scenario::MeshFile>(mesh)) return 0.0;
     const double nodes = scene::expected_nodes(mesh);
     const double finer = nodes < 300.0 ? 4.0 : nodes < 2000.0 ? 2.0 : 0.5;
     const auto change = [&](std::array<int, 3>& cells) {
@@ -199,13 +200,24 @@ class Chooser {
       tetgen->nodes = static_cast<int>(std::pow(finer, 3) * tetgen->nodes);
       tetgen->tetrahedra.reset();
     }
-    try {
-      const double difference = std::abs(platen_modulus(other) / platen_modulus(asked_) - 1.0);
-      return finer > 1.0 ? 2.0 * difference : difference;
-    } catch (const MeshError&) {   // the models that mesh the body say why,
-    } catch (const InputError&) {  // and where the mistake stands
-    }
-    return unknown;
+    // The cases of a sweep that differ in nothing else share it.
+    std::string key = scene::shape_key(asked_) + " between platens " +
+                      std::to_string(static_cast<int>(asked_.tissue.base)) + " " +
+                      std::to_string(static_cast<int>(scenario::upper_platen(asked_))) + " " +
+                      number_text(asked_.tissue.poisson_ratio);
+    for (const auto& region : asked_.regions)
+      key += " " + number_text(region.young_modulus / asked_.tissue.young_modulus) + " " +
+             number_text(region.poisson_ratio);
+    const auto measure = [&]() -> scene::SpecimenShapes::Numbers {
+      try {
+        const double difference = std::abs(platen_modulus(other) / platen_modulus(asked_) - 1.0);
+        return {finer > 1.0 ? 2.0 * difference : difference};
+      } catch (const MeshError&) {   // the models that mesh the body say why,
+      } catch (const InputError&) {  // and where the mistake stands
+      }
+      return {unknown};
+    };
+    return shapes_.kept_numbers(key, measure)[0];
   }
 
   [[nodiscard]] double platen_modulus(const scenario::Resolved& scenario) {

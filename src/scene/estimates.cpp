@@ -283,18 +283,6 @@ double bonded_stiffening(const scenario::Resolved& scenario, double poisson_rati
   return 1.0 + 1.0 / (1.0 / (2.0 * form * form) + 1.0 / (confined - 1.0));
 }
 
-double bonded_mesh_error(const scenario::Resolved& scenario) {
-  const double nu = scenario.tissue.poisson_ratio;
-  const double stiffening = bonded_stiffening(scenario, nu);
-  if (stiffening == 1.0) return 0.0;
-  // Fitted to tests/bench/bonded_platens.py.              docs/theory.md, below [compression]
-  const bool lattice = std::holds_alternative<scenario::Kuhn>(scenario.tissue.mesh) ||
-                       std::holds_alternative<scenario::Mirrored>(scenario.tissue.mesh);
-  const double as_dense = lattice ? 260.0 : 700.0;
-  return 0.017 * stiffening / std::sqrt(1.0 - 2.0 * nu) *
-         std::pow(as_dense / expected_nodes(scenario.tissue.mesh), 2.0 / 3.0);
-}
-
 double expected_nodes(const scenario::Mesh& mesh) {
   const auto of_cells = [](const std::array<int, 3>& cells) {
     return (cells[0] + 1.0) * (cells[1] + 1.0) * (cells[2] + 1.0);

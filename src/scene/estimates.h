@@ -53,9 +53,6 @@ inline constexpr double refined_share = 0.5;
 // height. Within 15 % of solutions by refined meshes.         docs/theory.md, below [compression]
 [[nodiscard]] double bonded_stiffening(const scenario::Resolved& scenario, double poisson_ratio);
 
-// The error of its modulus by a mesh with the tissue's elasticity, relative.
-[[nodiscard]] double bonded_mesh_error(const scenario::Resolved& scenario);
-
 // The longest edge (m) of a mesh that still carries the waves of a fast press: half of the way of a
 // shear wave while the finger comes down at its fastest rate, or the contact's radius if that is
 // longer, since the load is spread over three of them. Rounded down to a power of sqrt(2), so
