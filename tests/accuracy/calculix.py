@@ -282,9 +282,13 @@ def relaxing(scene, forces):
     return found
 
 
-def by_calculix(scene, folder, per_radius=3.0, seconds=300):
+def by_calculix(scene, folder, per_radius=3.0):
     """Forces (N) at the ends of ramp and hold; RuntimeError where CalculiX finds none."""
-    made = mesh(scene, per_radius)
+    return pressed(scene, mesh(scene, per_radius), folder)
+
+
+def pressed(scene, made, folder, seconds=300):
+    """Those on a mesh that mesh() has made."""
     pathlib.Path(folder, "press.inp").write_text(deck(scene, made), encoding="utf-8")
     with open(folder / "ccx.log", "w", encoding="utf-8") as log:
         done = subprocess.run(["ccx", "-i", "press"], cwd=folder, stdout=log, stderr=log, check=False,

@@ -97,7 +97,7 @@ class Answers : public testing::TestWithParam<Scene> {
   std::string file() {
     const Scene& scene = GetParam();
     if (scene.text.empty()) return project_file("scenarios/" + std::string(scene.name) + ".toml");
-    const std::string name = std::string(scene.name) + ".toml";
+    std::string name = std::string(scene.name) + ".toml";
     write_file(folder_ / name, scene.text);
     if (scene.text.find("disc.off") != std::string::npos)
       (void)write_surface(disc(30.0, 10.0, 4.0), 4.0, folder_ / "disc.off");

@@ -25,7 +25,7 @@
 namespace palpate::scene {
 namespace {
 
-const std::string kInclusion =
+const std::string with_inclusion =
     "[tissue]\nyoung_modulus = \"10 kPa\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n"
     "[[region]]\nkind = \"sphere\"\nradius = \"5 mm\"\n";
 
@@ -59,11 +59,11 @@ TEST(Places, the_part_of_a_ball_in_a_half_space_is_that_of_its_cap) {
 
 TEST(Places, an_inclusion_outside_is_refused_with_both_boxes) {
   EXPECT_EQ(
-      refusal_of(kInclusion + "centre = [\"70 mm\", \"30 mm\", \"15 mm\"]\n"),
+      refusal_of(with_inclusion + "centre = [\"70 mm\", \"30 mm\", \"15 mm\"]\n"),
       "press.toml:9:10: `[[region]]` 1 lies outside the body: it has x 65 to 75, y 25 to 35, z "
       "10 to 20 mm, the body x 0 to 60, y 0 to 60, z 0 to 30 mm, from the lowest corner of its "
       "box; change `centre` or `radius`");
-  EXPECT_TRUE(refusal_of(kInclusion + "centre = [\"30 mm\", \"30 mm\", \"27 mm\"]\n")
+  EXPECT_TRUE(refusal_of(with_inclusion + "centre = [\"30 mm\", \"30 mm\", \"27 mm\"]\n")
                   .starts_with("press.toml:9:10: only "));
 }
 
