@@ -172,8 +172,12 @@ std::optional<std::vector<std::array<int, 3>>> triangulated(
     vertices.back()->info() = static_cast<int>(i);
   }
   try {
-    for (const auto& [a, b] : segments)
-      plane.insert_constraint(vertices[as_index(a)], vertices[as_index(b)]);
+    for (const auto& [a, b] : segments) {
+      const auto from = vertices[as_index(a)];
+      const auto to = vertices[as_index(b)];
+      if (from == to) return std::nullopt;  // points at one place are one vertex
+      plane.insert_constraint(from, to);
+    }
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
     return std::nullopt;
   }

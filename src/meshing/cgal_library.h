@@ -18,7 +18,8 @@ namespace palpate::meshing::cgal_library {
 [[nodiscard]] std::vector<std::array<int, 2>> self_intersections(const geometry::Surface& surface);
 
 // Delaunay's triangles between points of a plane with these segments as edges, without what lies
-// outside all segments; nothing if two segments cross. No point is added.
+// outside all segments; nothing if two segments cross, or the ends of one are at one place. No
+// point is added.
 [[nodiscard]] std::optional<std::vector<std::array<int, 3>>> triangulated(
     std::span<const Eigen::Vector2d> points, std::span<const std::array<int, 2>> segments);
 

@@ -78,6 +78,16 @@ TEST(SurfaceNet, MovesNoVertexThroughAnotherSheet) {
       meshing::cgal_library::self_intersections({split.vertices(), split.triangles()}).empty());
 }
 
+// Two vertices of a surface may lie at one place of a plane that cuts it: there is then no edge
+// between them, and the surface is meshed in another way.
+TEST(CutsThroughBodies, HaveNoTrianglesWhereAnEdgeHasNoLength) {
+  const std::vector<Eigen::Vector2d> points{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}};
+  const std::vector<std::array<int, 2>> round{{0, 1}, {1, 2}, {0, 2}};
+  const std::vector<std::array<int, 2>> pinched{{0, 1}, {1, 2}, {2, 3}, {0, 3}};
+  EXPECT_TRUE(meshing::cgal_library::triangulated({points.data(), 3}, round).has_value());
+  EXPECT_FALSE(meshing::cgal_library::triangulated(points, pinched).has_value());
+}
+
 // Every place between corners is nearest to a corner, as on a fold: halves are as long as the
 // whole.
 TEST(SurfaceNet, EndsWhereTheTrueSurfaceIsElsewhere) {
