@@ -148,7 +148,7 @@ solid::FingerOrder SolidPress::order(double elements) const {
   if (scenario.finger.elastic) {
     const auto& [modulus, ratio] = *scenario.finger.elastic;
     order.ball = tissue::Isotropic{modulus, std::min(ratio, scene::most_poisson_ratio)};
-    constexpr double least = 0.02;
+    constexpr double least = 1e-4;
     order.share = std::clamp(1.0 - scene::finger_share_on_body(*scene_), least, 1.0 - least);
   }
   order.deepest = deepest_;

@@ -249,6 +249,20 @@ TEST(Solid, AnElasticFingerOnASkinThatBendsIsThatOfTheStack) {
   }
 }
 
+// Where one of both bodies hardly yields, the other takes the whole gap. A finger on bone, nu 0.49,
+// has 5.884 N by CalculiX 2.20 (axisymmetric, CAX8R, NLGEOM, a half-ball held at its equator; 0.1 %
+// less on coarser elements), and one a hundred thousand times as stiff as the tissue is rigid.
+// (With a share of at least 2 % for either body both were 1 % too stiff, and the reference as
+// well.)
+TEST(Solid, TheGapIsThatOfTheBodyThatYields) {
+  const double bone = force_of("finger_bone_061", {"finger.poisson_ratio=0.49", "step.1.to=0.61 mm",
+                                                   "solver.tolerance=0.02"});
+  EXPECT_NEAR(bone, 5.884, 0.004 * 5.884);
+  const double rigid = force_of("strip");
+  const double stiff = force_of("strip", {"finger.material=skin", "finger.young_modulus=1e6 kPa"});
+  EXPECT_NEAR(stiff, rigid, 1e-3 * rigid);
+}
+
 // Deep presses by a finger not much stiffer than the tissue, beside CalculiX (axisymmetric, CAX8,
 // NLGEOM, a half-ball held at its equator): 0.7715 N, and 0.6703 N of one of 15 kPa.
 TEST(Solid, DeepPressesByAnElasticFingerStateMore) {
