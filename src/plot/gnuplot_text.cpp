@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 
 #include "base/text.h"
 
@@ -23,6 +24,13 @@ std::string superscript(int power) {
 }
 
 }  // namespace
+
+std::size_t tissue_colour(const std::string& material, std::size_t i) {
+  constexpr std::array<std::string_view, 5> known{"skin", "muscle", "ligament", "bone",
+                                                  "upper_leg"};
+  const auto* const place = std::find(known.begin(), known.end(), material);
+  return static_cast<std::size_t>(place - known.begin()) + (place == known.end() ? i : 0);
+}
 
 std::string gnuplot_column(const std::string& name) {
   return "column(" + gnuplot_quoted(name) + ")";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 namespace palpate::plot {
@@ -13,6 +14,9 @@ namespace palpate::plot {
 // figure.
 inline constexpr std::array<const char*, 7> line_colours{"0072B2", "D55E00", "009E73", "CC79A7",
                                                          "8A6A00", "6A4FB3", "000000"};
+// The place there of a tissue's colour: the paper's five have the first ones, and any other tissue,
+// the i-th of a figure, one of those behind them.
+[[nodiscard]] std::size_t tissue_colour(const std::string& material, std::size_t i);
 // The palette below is too light for lines on white from here on.
 inline constexpr double brightest_line = 0.58;
 

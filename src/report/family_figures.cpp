@@ -195,22 +195,13 @@ double display_scale(const scenario::Family& family, const record::CaseRecord& r
 // More curves are a surface, and gnuplot reads the table once for every curve.
 constexpr std::size_t most_curves = 64;
 
-// The place of a tissue's colour, which the paper's five have in every figure; of another tissue,
-// the i-th of a figure, one of those behind them.
-std::size_t tissue_colour(const std::string& material, std::size_t i) {
-  constexpr std::array<std::string_view, 5> known{"skin", "muscle", "ligament", "bone",
-                                                  "upper_leg"};
-  const auto* const place = std::find(known.begin(), known.end(), material);
-  return as_index(place - known.begin()) + (place == known.end() ? i : 0);
-}
-
 // The places of the colours of all cases by name; none where cases share a tissue.
 std::map<std::string, std::size_t> tissue_colours(const scenario::Family& family) {
   std::set<std::string> tissues;
   std::map<std::string, std::size_t> places;
   for (const scenario::Case& one : family.cases) {
     const std::string& material = one.scenario.tissue.material;
-    places[one.name] = tissue_colour(material, tissues.size());
+    places[one.name] = plot::tissue_colour(material, tissues.size());
     if (!tissues.insert(material).second) return {};
   }
   return places;
@@ -376,7 +367,7 @@ std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
                      [&](const plot::Series& series) { return series.case_name == material; }))
       all.push_back({.case_name = material,
                      .column = "tissue.material",
-                     .colour = tissue_colour(material, all.size())});
+                     .colour = plot::tissue_colour(material, all.size())});
   }
   plot::Figure figure = figure_of(Kind::force_curvature, all);
   if (all.size() > 1) figure.legend = plot::key_label("tissue.material");
