@@ -535,10 +535,11 @@ class UniaxialFit {
       return factor / bonded_stiffening(*test_.shape_factor, nu) - 1.0;
     };
     if (!test_.poisson_ratio && higher(0.45) > 0.02)
-      fit_.warnings.push_back("the factor of bonded platens is that of incompressible tissue: at "
-                              "nu = 0.45 the modulus would be " +
-                              percent_text(higher(0.45)) + " higher, at nu = 0.3 " +
-                              percent_text(higher(0.3)) + "; give `--poisson`");
+      fit_.warnings.push_back(
+          "the factor of bonded platens is that of incompressible tissue: at "
+          "nu = 0.45 the modulus would be " +
+          percent_text(higher(0.45)) + " higher, at nu = 0.3 " + percent_text(higher(0.3)) +
+          "; give `--poisson`");
     if (fit_.range_high > 0.1 && factor > 1.05)
       fit_.warnings.push_back(
           "the factor of bonded platens is one of small strain, and the curve "

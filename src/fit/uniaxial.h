@@ -25,7 +25,7 @@ struct UniaxialTest {
   // With bonded platens: diameter over 4 heights, the loaded over the free area of a cylinder.
   std::optional<double> shape_factor = {};
   std::optional<double> poisson_ratio = {};  // between bonded platens; else 1/2, with a warning
-  int cycle = 0;     // of several loadings, from 1; 0: there is one only
+  int cycle = 0;                             // of several loadings, from 1; 0: there is one only
   bool toe = false;  // strain counts from where the line through the stress begins
   Residuals residuals = Residuals::independent;
 };

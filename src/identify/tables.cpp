@@ -232,7 +232,8 @@ std::vector<std::string> identified_sentences(const Identification& found) {
                                           found.kind == CurveKind::tangential_slide
                                       ? "A contact point "
                                       : "A start ") +
-                      with_unit(words.x.from_si(found.contact_shift), words.x.symbol) +
+                      rounded_text(words.x.from_si(found.contact_shift), 2) +
+                      (*words.x.symbol == '\0' ? "" : " ") + words.x.symbol +
                       " earlier or later changes `" + one.unknown.name() + "` by " +
                       change(*one.moved_down, one) + " or " + change(*one.moved_up, one) + ".");
   return lines;
@@ -350,7 +351,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   std::vector<std::string> lines = identified_sentences(found);
   const identify::Identified& first = found.unknowns.front();
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
-    page.headline(first.unknown.name() + " " + value, interval);
+    page.headline(plot::key_label(first.unknown.name()) + " " + value, interval);
     lines.erase(lines.begin());
   } else if (!found.combinations.empty()) {
     const auto [known, its_interval] = estimate_texts(found.combinations.front());

@@ -42,8 +42,8 @@ struct Interval {
 };
 [[nodiscard]] Interval trusted(const Identified& one);
 
-// What computed the curve: `layer` in back-quotes, or the formula of a uniform specimen, for which no
-// model runs.
+// What computed the curve: `layer` in back-quotes, or the formula of a uniform specimen, for which
+// no model runs.
 [[nodiscard]] std::string computed_by(const CurveFit& found);
 
 // An estimate in words: `12.3 kPa` and `(95 %: 11 to 13)`. Without an interval where it is not

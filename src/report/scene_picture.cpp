@@ -175,7 +175,8 @@ std::string specimen(const ScenePicture& picture, const View& view) {
     const auto found = glass.find(face.region);
     (found == glass.end() ? solid : found->second).push_back(&face);
   }
-  std::string text = "<g stroke-width=\"0.6\" stroke-linejoin=\"round\">\n" + painted(solid, colours, view);
+  std::string text =
+      "<g stroke-width=\"0.6\" stroke-linejoin=\"round\">\n" + painted(solid, colours, view);
   for (const auto& [region, faces] : glass)
     text += "<g opacity=\"0.45\">\n" + painted(faces, colours, view) + "</g>\n";
   return text + "</g>\n";
@@ -356,10 +357,9 @@ std::string legend(const ScenePicture& picture) {
   };
   const std::vector<Colour> colours = region_colours(picture);
   for (std::size_t i = 0; picture.materials.size() > 1 && i < picture.materials.size(); ++i)
-    entry(colours[i],
-          i == 0 || picture.materials[i] == ScenePicture::cavity
-              ? picture.materials[i]
-              : picture.materials[i] + " (region " + std::to_string(i) + ")");
+    entry(colours[i], i == 0 || picture.materials[i] == ScenePicture::cavity
+                          ? picture.materials[i]
+                          : picture.materials[i] + " (region " + std::to_string(i) + ")");
   if (!picture.base.empty()) entry(held_colour, picture.base);
   return text;
 }

@@ -22,8 +22,8 @@ struct Spheres {
   double radius = 0.0;            // m, of each
 };
 
-// That the finger passes beside the specimen, whose box (m) is given, at the x and y of a place (m):
-// an error at the key of the coordinate that is farther off.
+// That the finger passes beside the specimen, whose box (m) is given, at the x and y of a place
+// (m): an error at the key of the coordinate that is farther off.
 [[nodiscard]] KeyError beside(const Vec3& place, const Vec3& low, const Vec3& high);
 
 // Lowers spheres vertically onto a surface, with their reference point above the place (m), whose

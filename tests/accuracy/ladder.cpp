@@ -86,10 +86,11 @@ void blocks_table() {
 void figure(const std::string& path) {
   std::FILE* file = std::fopen(path.c_str(), "w");
   if (file == nullptr) return;
-  std::string script = plot::gnuplot_head("accuracy", {.height = 700}) +
-                       "set multiplot layout 2,1\nset xlabel 'nodes'\nset ylabel 'force over the "
-                       "middle of the band'\nset yrange [0.9:1.1]\nset key bottom right samplen 2\n" +
-                       plot::gnuplot_logarithmic("x", 100.0, 4000.0) + "set xrange [100:4000]\n";
+  std::string script =
+      plot::gnuplot_head("accuracy", {.height = 700}) +
+      "set multiplot layout 2,1\nset xlabel 'nodes'\nset ylabel 'force over the "
+      "middle of the band'\nset yrange [0.9:1.1]\nset key bottom right samplen 2\n" +
+      plot::gnuplot_logarithmic("x", 100.0, 4000.0) + "set xrange [100:4000]\n";
   const std::pair<const char*, const char*> panels[] = {
       {"block30-nu45", "60 x 60 x 30 mm, nu 0.45"}, {"block10-nu45", "60 x 60 x 10 mm, nu 0.45"}};
   for (const auto& [wanted, title] : panels)

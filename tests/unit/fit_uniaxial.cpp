@@ -96,15 +96,16 @@ TEST(Uniaxial, BondedPlatens) {
   // 1 + 1 / (1/(2 S^2) + 1/(M/E - 1)), M/E = (1 - nu) / ((1 + nu) (1 - 2 nu)): 1.424 at nu 0.45,
   // 1.205 at 0.3.
   ASSERT_EQ(fit.warnings.size(), 1U);
-  EXPECT_NE(fit.warnings[0].find("at nu = 0.45 the modulus would be 5.3 % higher, at nu = 0.3 25 %;"),
-            std::string::npos)
+  EXPECT_NE(
+      fit.warnings[0].find("at nu = 0.45 the modulus would be 5.3 % higher, at nu = 0.3 25 %;"),
+      std::string::npos)
       << fit.warnings[0];
 }
 
 // A flat disc whose tissue can be compressed is stiffened by less than its modulus of uniaxial
 // strain over E, whatever its shape.
 TEST(Uniaxial, BondedPlatensOfCompressibleTissue) {
-  const double confined = 0.7 / (1.3 * 0.4);  // of nu 0.3
+  const double confined = 0.7 / (1.3 * 0.4);                   // of nu 0.3
   EXPECT_NEAR(bonded_stiffening(100.0, 0.3), confined, 1e-4);  // 1 / (2 S^2)
   EXPECT_EQ(bonded_stiffening(0.5, 0.5), 1.5);
   EXPECT_EQ(bonded_stiffening(0.5, 0.0), 1.0) << "it does not widen";

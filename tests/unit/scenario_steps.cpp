@@ -29,7 +29,8 @@ TEST(Steps, GoOnFromWhereTheLastOneEnded) {
 TEST(Steps, PressAtLeastOnce) {
   const std::string hold = "[[step]]\nkind = \"hold\"\ntime = \"1 s\"\n";
   const std::string sentence =
-      "press.toml:1:1: no `step` presses the finger into the tissue; begin with `kind = \"indent\"`";
+      "press.toml:1:1: no `step` presses the finger into the tissue; begin with `kind = "
+      "\"indent\"`";
   EXPECT_EQ(refusal(hold), sentence);
   EXPECT_EQ(refusal(hold + step("retract", "-1 mm")), sentence);
   EXPECT_EQ(refusal(hold + step("indent", "1 mm")), "accepted");
