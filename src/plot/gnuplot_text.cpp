@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
 
 #include "base/text.h"
 
@@ -25,11 +24,15 @@ std::string superscript(int power) {
 
 }  // namespace
 
-std::size_t tissue_colour(const std::string& material, std::size_t i) {
-  constexpr std::array<std::string_view, 5> known{"skin", "muscle", "ligament", "bone",
-                                                  "upper_leg"};
-  const auto* const place = std::find(known.begin(), known.end(), material);
-  return static_cast<std::size_t>(place - known.begin()) + (place == known.end() ? i : 0);
+std::vector<std::size_t> tissue_colours(const std::vector<std::string>& tissues) {
+  std::vector<std::string> known{"skin", "muscle", "ligament", "bone", "upper_leg"};
+  std::vector<std::size_t> places;
+  for (const std::string& tissue : tissues) {
+    const auto place = std::find(known.begin(), known.end(), tissue);
+    places.push_back(static_cast<std::size_t>(place - known.begin()));
+    if (place == known.end()) known.push_back(tissue);
+  }
+  return places;
 }
 
 std::string gnuplot_column(const std::string& name) {

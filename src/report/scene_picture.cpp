@@ -8,7 +8,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,21 +44,15 @@ constexpr Colour held_colour{90, 90, 90}, cavity_colour{205, 205, 205};
 // has less of it.
 std::vector<Colour> region_colours(const ScenePicture& picture) {
   std::vector<Colour> colours;
-  std::vector<std::string> tissues;
-  for (const std::string& material : picture.materials) {
-    if (material == ScenePicture::cavity) {
-      colours.push_back(cavity_colour);
-      continue;
-    }
-    const auto same = std::count(tissues.begin(), tissues.end(), material);
-    const auto first = std::find(tissues.begin(), tissues.end(), material);
-    const std::set<std::string> before(tissues.begin(), first);
-    tissues.push_back(material);
-    const std::size_t place = plot::tissue_colour(material, before.size());
-    const unsigned line = static_cast<unsigned>(
-        std::stoul(plot::line_colours[place % plot::line_colours.size()], nullptr, 16));
+  const std::vector<std::size_t> places = plot::tissue_colours(picture.materials);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Colour& colour = colours.emplace_back(cavity_colour);
+    if (picture.materials[i] == ScenePicture::cavity) continue;
+    const auto here = places.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto same = std::count(places.begin(), here, places[i]);
+    const auto line = static_cast<unsigned>(
+        std::stoul(plot::line_colours[places[i] % plot::line_colours.size()], nullptr, 16));
     const double white = 0.5 / static_cast<double>(1 + same);
-    Colour& colour = colours.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
       colour[k] = white * 255.0 + (1.0 - white) * (line >> (16 - 8 * k) & 0xffU);
   }

@@ -253,19 +253,19 @@ void auto_table() {
 }  // namespace palpate
 
 // The first argument names the gnuplot script of the figure; a second one the only table to write:
-// `blocks`, `bodies`, `uniform` or `auto`.
+// `blocks`, `bodies`, `uniform` or `auto`; `figure` makes the script alone.
 int main(int count, char** arguments) {
   const std::string only = count > 2 ? arguments[2] : "";
   const auto wanted = [&](const char* table) { return only.empty() || only == table; };
   if (wanted("blocks")) {
     palpate::blocks_table();
-    if (count > 1) palpate::figure(arguments[1]);
     std::printf(
         "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes. The grey "
         "band is that of linear elasticity. The force at rest of both\nkinds of springs comes from "
         "the "
         "same finite elements.\n");
   }
+  if (count > 1 && wanted("figure")) palpate::figure(arguments[1]);
   if (wanted("bodies")) palpate::bodies_table();
   if (wanted("uniform")) palpate::uniform_table();
   if (wanted("auto")) palpate::auto_table();
