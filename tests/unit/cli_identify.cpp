@@ -194,19 +194,6 @@ TEST_F(IdentifyVerb, RefusesInSentences) {
   EXPECT_EQ(nothing.code, 2);
   EXPECT_NE(nothing.err.find("changes nothing in what `hertz` computes"), std::string::npos);
   EXPECT_EQ(nothing.err.find("note: "), std::string::npos) << nothing.err;
-  // Of a uniform specimen no model runs, and none is named.
-  write_file(
-      folder_ / "creep.toml",
-      "[tissue]\nviscosity = \"kelvin_voigt\"\n[[step]]\nkind = \"creep\"\nstress = \"1 kPa\"\n"
-      "load_time = \"1 s\"\n");
-  write_file(folder_ / "creep.csv",
-             "time (s),strain (%)\n0,0\n0.1,0.9\n0.2,1.2\n0.4,1.35\n0.7,1.38\n1,1.38\n");
-  const auto formula = palpate(folder_.path(), {"identify", "creep.csv", "creep.toml", "--unknown",
-                                                "tissue.density=100..3000 kg/m^3"});
-  EXPECT_EQ(formula.code, 2);
-  EXPECT_NE(formula.err.find("changes nothing in what the formula of a uniform specimen computes"),
-            std::string::npos)
-      << formula.err;
   const auto typo = identify({"--unknown", "tissue.young_modulos=1..2 kPa"});
   EXPECT_EQ(typo.code, 2);
   EXPECT_NE(typo.err.find("did you mean `tissue.young_modulus`?"), std::string::npos);

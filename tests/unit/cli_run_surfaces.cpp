@@ -51,7 +51,7 @@ TEST_F(RunSurfaces, are_refused_with_the_reason_and_a_remedy) {
               "holds up to 60" +
               mesh);
   refused("x = \"90 mm\"\n", 2,
-          "press.toml:7:5: the finger passes beside the specimen at x 90 mm, y 40 mm; set "
+          "press.toml:11:5: the finger passes beside the specimen at x 90 mm, y 40 mm; set "
           "`finger.x` and "
           "`finger.y` to a place above it");
 }
