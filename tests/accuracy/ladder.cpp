@@ -89,7 +89,7 @@ void figure(const std::string& path) {
   std::string script =
       plot::gnuplot_head("accuracy", {.height = 700}) +
       "set multiplot layout 2,1\nset xlabel 'nodes'\nset ylabel 'force over the "
-      "middle of the band'\nset yrange [0.9:1.1]\nset key bottom right samplen 2\n" +
+      "middle of the band'\nset yrange [0.9:1.1]\nset key bottom right samplen 1.5 font ',12'\n" +
       plot::gnuplot_logarithmic("x", 100.0, 4000.0) + "set xrange [100:4000]\n";
   const std::pair<const char*, const char*> panels[] = {
       {"block30-nu45", "60 x 60 x 30 mm, nu 0.45"}, {"block10-nu45", "60 x 60 x 10 mm, nu 0.45"}};
@@ -129,9 +129,10 @@ void figure(const std::string& path) {
       for (std::size_t i = 0; i < curves.size(); ++i) {
         const std::string data = "$" + block.name.substr(0, 7) + std::to_string(i);
         script += data + " << EOD\nnodes,force\n" + curves[i].first + "EOD\n";
-        plots += (i > 0 ? ", " : "plot ") + data +
-                 " using 1:2 with linespoints pointtype 7 linewidth 2 linecolor rgb '#" +
-                 plot::line_colours.at(i) + "' title '" + curves[i].second + "'";
+        plots +=
+            (i > 0 ? ", " : "plot ") + data +
+            " using 1:2 with linespoints pointtype 7 pointsize 0.6 linewidth 2 linecolor rgb '#" +
+            plot::line_colours.at(i) + "' title '" + curves[i].second + "'";
       }
       script += plots + "\nunset object 1\n";
     }
