@@ -224,7 +224,10 @@ class Speaker {
     if (!verdict_.taken) return text + "; what `auto` takes was not measured.";
     const std::size_t taken = *verdict_.taken;
     if (taken == best) return text + "; `auto` took it.";
-    text += "; `auto` took " + named(taken);
+    const Measurement& row = chart_.rows[taken];
+    const bool scenario = row.variant.group == "base" && !row.model.empty();
+    text += "; `auto` took `" + (scenario ? row.model : name(taken)) + "` (" + error(taken) + ", " +
+            cost(taken) + ")";
     if (verdict_.error[taken] > chart_.tolerance) return text + ", which is outside.";
     return text + ", at " + times(taken, best) + " the cost.";
   }

@@ -161,7 +161,8 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_flag("--toe", fit.toe, "the same: count from where the line through the stress begins");
   one_of(verb.add_option("--loading", fit.loading, "the same: default by the signs"),
          {"compression", "tension"});
-  verb.add_option("--poisson", fit.poisson_ratio, "contact models: Poisson's ratio")
+  verb.add_option("--poisson", fit.poisson_ratio,
+                  "contact models, and with bonded platens: Poisson's ratio")
       ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
   one_of(verb.add_option("--base", fit.base, "layer: default bonded"), {"bonded", "frictionless"});

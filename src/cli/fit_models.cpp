@@ -272,6 +272,7 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
           "of its loaded to its free surface");
     test.shape_factor =
         length_of("--diameter", command.diameter) / (4.0 * length_of("--height", command.height));
+    if (command.poisson_ratio >= 0) test.poisson_ratio = command.poisson_ratio;
   }
   std::vector<std::string> notes;
   take_nominal(curve, strain, stress, test.loading == fit::UniaxialTest::Loading::compression,
@@ -296,6 +297,7 @@ void check_fit(const Fit& command) {
   constexpr auto ramps =
       std::to_array<std::string_view>({"prony", "prony_creep", "standard_linear_solid"});
   constexpr Models hertz = elastic_models.first(1), layer = elastic_models.last(1);
+  const bool bonded = is_one_of(command.model, uniaxial_models) && command.platens == "bonded";
   for (const Option& option :
        {Option{"--radius", !command.radius.empty(), contact_models},
         Option{"--tip", !command.tip.empty(), contact_models},
@@ -316,7 +318,7 @@ void check_fit(const Fit& command) {
         Option{"--loading", !command.loading.empty(), uniaxial_models},
         Option{"--cycle", command.cycle > 0, uniaxial_models},
         Option{"--toe", command.toe, uniaxial_models},
-        Option{"--poisson", command.poisson_ratio >= 0, contact_models, "0.45"},
+        Option{"--poisson", command.poisson_ratio >= 0 && !bonded, contact_models, "0.45"},
         Option{"--thickness", !command.thickness.empty(), layer, "\"5 mm\""},
         Option{"--base", !command.base.empty(), layer},
         Option{"--ramp", command.ramp.has_value(), ramps},

@@ -155,7 +155,7 @@ scenario::Family read_scenario(const Identify& command, const std::string& path,
   const scenario::Case& first = family.cases.front();
   if (first.scenario.finger.material != "rigid" && !first.scenario.uniform())
     notes.push_back(
-        where + "the finger is `" + first.scenario.finger.material +
+        where + "the finger's material is `" + first.scenario.finger.material +
         "`, which gives way; set `finger.material = \"rigid\"` for a ball of metal or glass");
   return family;
 }

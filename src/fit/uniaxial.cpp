@@ -515,17 +515,31 @@ class UniaxialFit {
     return all;
   }
 
-  // Gent and Lindley's factor divides every modulus.
+  // The stiffening by bonded platens divides every modulus.
   void platens() {
     if (!test_.shape_factor) return;
-    const double factor = gent_lindley(*test_.shape_factor);
+    const double factor = bonded_stiffening(*test_.shape_factor, test_.poisson_ratio.value_or(0.5));
     for (Estimate& one : fit_.parameters) {
       if (one.name.starts_with("alpha") || one.name == "sigma_0") continue;
       for (double* value : {&one.estimate, &one.std_error, &one.ci95_low, &one.ci95_high})
         *value /= factor;
     }
-    fit_.law += ", divided by 1 + 2 S^2 = " + rounded_text(factor) +
-                " of bonded platens, Gent and Lindley 1959, for nu = 1/2";
+    fit_.law += test_.poisson_ratio
+                    ? ", divided by " + rounded_text(factor) +
+                          " of bonded platens, Gent and Lindley's 1 + 2 S^2 in series with the "
+                          "modulus of uniaxial strain, for nu = " +
+                          rounded_text(*test_.poisson_ratio)
+                    : ", divided by 1 + 2 S^2 = " + rounded_text(factor) +
+                          " of bonded platens, Gent and Lindley 1959, for nu = 1/2";
+    const auto higher = [&](double nu) {
+      return factor / bonded_stiffening(*test_.shape_factor, nu) - 1.0;
+    };
+    if (!test_.poisson_ratio && higher(0.45) > 0.02)
+      fit_.warnings.push_back(
+          "the factor of bonded platens is that of incompressible tissue: at "
+          "nu = 0.45 the modulus would be " +
+          percent_text(higher(0.45)) + " higher, at nu = 0.3 " + percent_text(higher(0.3)) +
+          "; give `--poisson`");
     if (fit_.range_high > 0.1 && factor > 1.05)
       fit_.warnings.push_back(
           "the factor of bonded platens is one of small strain, and the curve "
@@ -549,7 +563,12 @@ class UniaxialFit {
 
 }  // namespace
 
-double gent_lindley(double shape_factor) { return 1.0 + 2.0 * shape_factor * shape_factor; }
+double bonded_stiffening(double shape_factor, double poisson_ratio) {
+  const double nu = poisson_ratio;
+  const double free = 2.0 * shape_factor * shape_factor;
+  const double over_confined = (1.0 + nu) * (1.0 - 2.0 * nu) / (2.0 * nu * nu);  // 1 / (M/E - 1)
+  return nu > 0.0 ? 1.0 + free / (1.0 + free * over_confined) : 1.0;
+}
 
 Fit fit_uniaxial(std::span<const double> strain, std::span<const double> stress,
                  const UniaxialTest& test) {

@@ -24,14 +24,17 @@ struct UniaxialTest {
   std::optional<double> to = {};
   // With bonded platens: diameter over 4 heights, the loaded over the free area of a cylinder.
   std::optional<double> shape_factor = {};
-  int cycle = 0;     // of several loadings, from 1; 0: there is one only
+  std::optional<double> poisson_ratio = {};  // between bonded platens; else 1/2, with a warning
+  int cycle = 0;                             // of several loadings, from 1; 0: there is one only
   bool toe = false;  // strain counts from where the line through the stress begins
   Residuals residuals = Residuals::independent;
 };
 
-// The stiffening of a cylinder of incompressible material between bonded platens:
+// The stiffening of a cylinder between bonded platens, of incompressible material
 // E_apparent / E = 1 + 2 S^2                Gent and Lindley 1959, Proc. Inst. Mech. Eng. 173
-[[nodiscard]] double gent_lindley(double shape_factor);
+// and of other material this in series with the modulus of uniaxial strain, as a scenario has it,
+// within 15 %.                              docs/theory.md [bonded] and below [compression]
+[[nodiscard]] double bonded_stiffening(double shape_factor, double poisson_ratio = 0.5);
 
 // Fits engineering strain and nominal stress (Pa), of equal size. Where strain and stress are both
 // negative, both are turned, and the loading is compression. Parameters: `modulus`: E_tangent, the

@@ -193,8 +193,8 @@ class Search {
         if (changes) break;
       }
       if (tried && !changes)
-        refuse("`--unknown " + unknowns_[i].name() + "` changes nothing in what `" + model_word() +
-               "` computes of " + words_of(found_.kind).sentence +
+        refuse("`--unknown " + unknowns_[i].name() + "` changes nothing in what " +
+               computed_by(found_) + " computes of " + words_of(found_.kind).sentence +
                "; leave it out, or set what makes it count (`palpate explain " + unknowns_[i].key +
                "`)");
     }
@@ -205,8 +205,6 @@ class Search {
       if (!part.curve->failure().empty()) return part.curve->failure();
     return "the curve cannot be evaluated in the ranges";
   }
-
-  [[nodiscard]] std::string model_word() const { return scenario::traits(found_.taken).word; }
 
   void find_best() {
     const SearchResult result = search_from_several(problem_, options_.searches);
@@ -574,7 +572,7 @@ class Search {
     if (joint())
       for (const Part& part : parts_) found_.pairs.push_back(part.found);
     found_.warnings =
-        warnings_of(found_, {weighted, noise_, model_word()},
+        warnings_of(found_, {weighted, noise_},
                     scenario::resolve(first.curve->at(estimates_of(first)), found_.taken));
   }
 

@@ -21,6 +21,13 @@ bool is_exact(const Identification& found) {
 
 namespace {
 
+// Of a uniform specimen; contact laws in closed form are models.
+bool by_formula(const CurveFit& found) {
+  const CurveKind kind = found.kind;
+  return found.closed_form && (kind == CurveKind::strain_time || kind == CurveKind::stress_time ||
+                               kind == CurveKind::stress_strain);
+}
+
 using record::Cell;
 
 Cell cell(const std::optional<double>& si, const Unknown& unknown) {
@@ -51,7 +58,7 @@ std::string change(double moved, const Identified& one) {
   const bool relative = one.unknown.scale == Unknown::Scale::logarithmic;
   const double number = relative ? 100.0 * moved / one.estimate : one.unknown.shown(moved);
   const std::string unit = relative ? "%" : one.unknown.unit_text();
-  return (number > 0.0 ? "+" : "") + with_unit(number, unit);
+  return (number > 0.0 ? "+" : "") + rounded_text(number, 2) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string combination_sentence(const Identification& found, const Combination& one) {
@@ -64,12 +71,9 @@ std::string combination_sentence(const Identification& found, const Combination&
 }
 
 std::string model_sentence(const Identification& found) {
-  const std::string model = scenario::traits(found.taken).word;
   const CurveWords& words = words_of(found.kind);
-  std::string text = std::string(words.sentence) + ", by `" + model + "`";
-  if (found.closed_form && found.scenario.uniform())
-    text = std::string(words.sentence) + ", by the formula of a uniform specimen";
-  else if (found.predicted_error)
+  std::string text = std::string(words.sentence) + ", by " + computed_by(found);
+  if (found.predicted_error && !by_formula(found))
     text += ", predicted to be within " + percent_text(*found.predicted_error) +
             ", which the intervals contain";
   if (found.deep_effect)
@@ -88,6 +92,11 @@ Interval trusted(const Identified& one) {
   if (low) interval.low = one.unknown.shown(*low);
   if (high) interval.high = one.unknown.shown(*high);
   return interval;
+}
+
+std::string computed_by(const CurveFit& found) {
+  return by_formula(found) ? "the formula of a uniform specimen"
+                           : "`" + std::string(scenario::traits(found.taken).word) + "`";
 }
 
 record::Table identified_table(const Identification& found) {
@@ -223,7 +232,8 @@ std::vector<std::string> identified_sentences(const Identification& found) {
                                           found.kind == CurveKind::tangential_slide
                                       ? "A contact point "
                                       : "A start ") +
-                      with_unit(words.x.from_si(found.contact_shift), words.x.symbol) +
+                      rounded_text(words.x.from_si(found.contact_shift), 2) +
+                      (*words.x.symbol == '\0' ? "" : " ") + words.x.symbol +
                       " earlier or later changes `" + one.unknown.name() + "` by " +
                       change(*one.moved_down, one) + " or " + change(*one.moved_up, one) + ".");
   return lines;
@@ -259,11 +269,14 @@ std::vector<std::string> warnings_of(const Identification& found,
                          "`--set`");
   for (const Identification* one : views(found))
     if (one->predicted_error && *one->predicted_error > with.solver.tolerance)
-      warnings.push_back("the estimated error of `" +
-                         std::string(scenario::traits(one->taken).word) + "` is " +
+      warnings.push_back("the estimated error of " + computed_by(*one) + " is " +
                          percent_text(*one->predicted_error) +
                          " here, and the estimates are wrong by about as much" +
-                         (one->given ? "; leave `solver.model` to `auto`" : ""));
+                         (one->given ? "; leave `solver.model` to `auto`"
+                          : one->scenario.uniform()
+                              ? ""
+                              : "; a search takes no `solid` by itself, which `--set "
+                                "solver.model=solid` does"));
   const auto waves = inertia_of_flow(with);
   if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
     warnings.push_back("waves in the specimen change its deformation by about " +
@@ -338,7 +351,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
   std::vector<std::string> lines = identified_sentences(found);
   const identify::Identified& first = found.unknowns.front();
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
-    page.headline(first.unknown.name() + " " + value, interval);
+    page.headline(plot::key_label(first.unknown.name()) + " " + value, interval);
     lines.erase(lines.begin());
   } else if (!found.combinations.empty()) {
     const auto [known, its_interval] = estimate_texts(found.combinations.front());

@@ -42,6 +42,10 @@ struct Interval {
 };
 [[nodiscard]] Interval trusted(const Identified& one);
 
+// What computed the curve: `layer` in back-quotes, or the formula of a uniform specimen, for which
+// no model runs.
+[[nodiscard]] std::string computed_by(const CurveFit& found);
+
 // An estimate in words: `12.3 kPa` and `(95 %: 11 to 13)`. Without an interval where it is not
 // separately identifiable.
 struct EstimateTexts {
@@ -59,7 +63,6 @@ struct EstimateTexts {
 struct WeightedResiduals {
   std::span<const double> values;  // in the order of the points
   double noise = 0.0;              // their standard deviation
-  std::string model;               // the word of the model
 };
 
 // Sentences on why the estimates may be wrong: on correlated residuals, few independent points, R^2

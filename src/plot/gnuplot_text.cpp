@@ -24,6 +24,17 @@ std::string superscript(int power) {
 
 }  // namespace
 
+std::vector<std::size_t> tissue_colours(const std::vector<std::string>& tissues) {
+  std::vector<std::string> known{"skin", "muscle", "ligament", "bone", "upper_leg"};
+  std::vector<std::size_t> places;
+  for (const std::string& tissue : tissues) {
+    const auto place = std::find(known.begin(), known.end(), tissue);
+    places.push_back(static_cast<std::size_t>(place - known.begin()));
+    if (place == known.end()) known.push_back(tissue);
+  }
+  return places;
+}
+
 std::string gnuplot_column(const std::string& name) {
   return "column(" + gnuplot_quoted(name) + ")";
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace palpate::plot {
 
@@ -13,6 +15,9 @@ namespace palpate::plot {
 // figure.
 inline constexpr std::array<const char*, 7> line_colours{"0072B2", "D55E00", "009E73", "CC79A7",
                                                          "8A6A00", "6A4FB3", "000000"};
+// The places there of the colours of a figure's tissues: the paper's five have the first ones, and
+// other tissues, in the order in which they first occur, those behind them.
+[[nodiscard]] std::vector<std::size_t> tissue_colours(const std::vector<std::string>& tissues);
 // The palette below is too light for lines on white from here on.
 inline constexpr double brightest_line = 0.58;
 

@@ -195,25 +195,15 @@ double display_scale(const scenario::Family& family, const record::CaseRecord& r
 // More curves are a surface, and gnuplot reads the table once for every curve.
 constexpr std::size_t most_curves = 64;
 
-// The place of a tissue's colour, which the paper's five have in every figure; of another tissue,
-// the i-th of a figure, one of those behind them.
-std::size_t tissue_colour(const std::string& material, std::size_t i) {
-  constexpr std::array<std::string_view, 5> known{"skin", "muscle", "ligament", "bone",
-                                                  "upper_leg"};
-  const auto* const place = std::find(known.begin(), known.end(), material);
-  return as_index(place - known.begin()) + (place == known.end() ? i : 0);
-}
-
 // The places of the colours of all cases by name; none where cases share a tissue.
 std::map<std::string, std::size_t> tissue_colours(const scenario::Family& family) {
-  std::set<std::string> tissues;
-  std::map<std::string, std::size_t> places;
-  for (const scenario::Case& one : family.cases) {
-    const std::string& material = one.scenario.tissue.material;
-    places[one.name] = tissue_colour(material, tissues.size());
-    if (!tissues.insert(material).second) return {};
-  }
-  return places;
+  std::vector<std::string> tissues;
+  for (const scenario::Case& one : family.cases) tissues.push_back(one.scenario.tissue.material);
+  if (std::set<std::string>(tissues.begin(), tissues.end()).size() < tissues.size()) return {};
+  const std::vector<std::size_t> places = plot::tissue_colours(tissues);
+  std::map<std::string, std::size_t> by_name;
+  for (std::size_t i = 0; i < places.size(); ++i) by_name[family.cases[i].name] = places[i];
+  return by_name;
 }
 
 // One series per case, without fits; if there are many cases, coloured by a swept number. Of more
@@ -374,10 +364,12 @@ std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
     const std::string& material = one.swept[as_index(swept - keys.begin())].second;
     if (std::none_of(all.begin(), all.end(),
                      [&](const plot::Series& series) { return series.case_name == material; }))
-      all.push_back({.case_name = material,
-                     .column = "tissue.material",
-                     .colour = tissue_colour(material, all.size())});
+      all.push_back({.case_name = material, .column = "tissue.material", .colour = {}});
   }
+  std::vector<std::string> tissues;
+  for (const plot::Series& series : all) tissues.push_back(series.case_name);
+  const std::vector<std::size_t> places = plot::tissue_colours(tissues);
+  for (std::size_t i = 0; swept != keys.end() && i < all.size(); ++i) all[i].colour = places[i];
   plot::Figure figure = figure_of(Kind::force_curvature, all);
   if (all.size() > 1) figure.legend = plot::key_label("tissue.material");
   choose_axis(figure, forces, 1.5);

@@ -17,6 +17,7 @@
 #include "base/written.h"
 #include "page/html.h"
 #include "page/page.h"
+#include "plot/gnuplot_text.h"
 
 namespace palpate::report {
 namespace {
@@ -37,17 +38,26 @@ double head_of(const ScenePicture& picture) {
   return std::max(100.0, first_entry + entry_height * static_cast<double>(entries));
 }
 
-// Colours by region: those of skin, muscle and bone, then others.
-constexpr std::array<Colour, 6> palette{{{236, 188, 160},
-                                         {190, 74, 66},
-                                         {240, 232, 205},
-                                         {96, 140, 190},
-                                         {120, 165, 100},
-                                         {150, 118, 185}}};
+constexpr Colour held_colour{90, 90, 90}, cavity_colour{205, 205, 205};
 
-constexpr Colour held_colour{92, 110, 138};
-
-Colour colour(int region) { return palette[as_index(region) % palette.size()]; }
+// The colour of a tissue's curves in figures, mixed with white; a further region of the same tissue
+// has less of it.
+std::vector<Colour> region_colours(const ScenePicture& picture) {
+  std::vector<Colour> colours;
+  const std::vector<std::size_t> places = plot::tissue_colours(picture.materials);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Colour& colour = colours.emplace_back(cavity_colour);
+    if (picture.materials[i] == ScenePicture::cavity) continue;
+    const auto here = places.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto same = std::count(places.begin(), here, places[i]);
+    const auto line = static_cast<unsigned>(
+        std::stoul(plot::line_colours[places[i] % plot::line_colours.size()], nullptr, 16));
+    const double white = 0.5 / static_cast<double>(1 + same);
+    for (std::size_t k = 0; k < 3; ++k)
+      colour[k] = white * 255.0 + (1.0 - white) * (line >> (16 - 8 * k) & 0xffU);
+  }
+  return colours;
+}
 
 std::string hex(const Colour& colour, double brightness) {
   std::string text = "#";
@@ -113,7 +123,8 @@ View fitting(const ScenePicture& picture, const SceneFrame& frame) {
 }
 
 // Paints the faces towards the eye, the farthest first; successive faces of one colour form a path.
-std::string painted(const std::vector<const ScenePicture::Face*>& faces, const View& view) {
+std::string painted(const std::vector<const ScenePicture::Face*>& faces,
+                    const std::vector<Colour>& colours, const View& view) {
   struct Seen {
     double nearness;
     const ScenePicture::Face* face;
@@ -131,7 +142,7 @@ std::string painted(const std::vector<const ScenePicture::Face*>& faces, const V
   });
   std::string text, before;
   for (const Seen& one : seen) {
-    const Colour base = one.face->held ? held_colour : colour(one.face->region);
+    const Colour base = one.face->held ? held_colour : colours.at(as_index(one.face->region));
     const std::string fill = hex(base, one.brightness);
     if (fill != before) {
       if (!before.empty()) text += "\"/>\n";
@@ -148,6 +159,7 @@ std::string painted(const std::vector<const ScenePicture::Face*>& faces, const V
 // Paints opaque regions first, then the translucent ones, which contain others, innermost first.
 std::string specimen(const ScenePicture& picture, const View& view) {
   using Faces = std::vector<const ScenePicture::Face*>;
+  const std::vector<Colour> colours = region_colours(picture);
   Faces solid;
   std::map<int, Faces, std::greater<>> glass;
   for (const ScenePicture::Face& face : picture.faces)
@@ -156,9 +168,10 @@ std::string specimen(const ScenePicture& picture, const View& view) {
     const auto found = glass.find(face.region);
     (found == glass.end() ? solid : found->second).push_back(&face);
   }
-  std::string text = "<g stroke-width=\"0.6\" stroke-linejoin=\"round\">\n" + painted(solid, view);
+  std::string text =
+      "<g stroke-width=\"0.6\" stroke-linejoin=\"round\">\n" + painted(solid, colours, view);
   for (const auto& [region, faces] : glass)
-    text += "<g opacity=\"0.45\">\n" + painted(faces, view) + "</g>\n";
+    text += "<g opacity=\"0.45\">\n" + painted(faces, colours, view) + "</g>\n";
   return text + "</g>\n";
 }
 
@@ -335,11 +348,11 @@ std::string legend(const ScenePicture& picture) {
             label({margin + 19.0, y}, " stroke=\"none\"", words);
     y += entry_height;
   };
+  const std::vector<Colour> colours = region_colours(picture);
   for (std::size_t i = 0; picture.materials.size() > 1 && i < picture.materials.size(); ++i)
-    entry(colour(static_cast<int>(i)),
-          i == 0 || picture.materials[i] == ScenePicture::cavity
-              ? picture.materials[i]
-              : picture.materials[i] + " (region " + std::to_string(i) + ")");
+    entry(colours[i], i == 0 || picture.materials[i] == ScenePicture::cavity
+                          ? picture.materials[i]
+                          : picture.materials[i] + " (region " + std::to_string(i) + ")");
   if (!picture.base.empty()) entry(held_colour, picture.base);
   return text;
 }
@@ -353,8 +366,7 @@ constexpr const char* gradient =
 
 std::vector<std::string> scene_colours(const ScenePicture& picture) {
   std::vector<std::string> colours;
-  for (std::size_t i = 0; i < picture.materials.size(); ++i)
-    colours.push_back(hex(colour(static_cast<int>(i)), 1.0));
+  for (const Colour& colour : region_colours(picture)) colours.push_back(hex(colour, 1.0));
   colours.push_back(hex(held_colour, 1.0));
   return colours;
 }

@@ -52,6 +52,7 @@ class Checker {
                   (ellipsoid ? "an `ellipsoid`" : "a `half_space`") +
                   " does not have; use `cuboid`, `disc`, `cylinder`, `ligament`, "
                   "`bone_shaft` or `layered_limb`");
+    const std::size_t before = problems_.size();
     Reached reached;
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
       const std::string path = "step." + std::to_string(i + 1);
@@ -74,6 +75,11 @@ class Checker {
                 "`slide` has no force to keep, for the finger does not press yet; put an `indent` "
                 "before it, or write `keep = \"displacement\"`");
     }
+    const auto presses = [](const Step& step) { return std::holds_alternative<Indent>(step); };
+    if (!uniform && problems_.size() == before &&
+        std::none_of(scenario_.steps.begin(), scenario_.steps.end(), presses))
+      problem("step.1",
+              "no `step` presses the finger into the tissue; begin with `kind = \"indent\"`");
   }
 
   // The state that the previous steps have reached.

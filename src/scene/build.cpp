@@ -345,6 +345,7 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family, SpecimenS
   if (touch.nowhere) {
     if (std::holds_alternative<scenario::SurfaceFile>(scenario.tissue.shape))
       (void)shapes.surface(scenario, family.folder).must();
+    if (!touch.beside.empty()) throw KeyError(touch.beside, *reason);
     throw MeshError(*reason);
   }
   if (scenario::traits(scenario.solver.model).solid && scenario.finger.spheres > 1 &&

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/error.h"
 #include "base/numerics.h"
 #include "base/units.h"
 #include "contact/detection.h"
+#include "geometry/box.h"
 
 namespace palpate::scene {
 
@@ -18,10 +18,12 @@ Vec3 pressed_place(const Scene& scene) {
   return {finger.x.value_or(middle.x()), finger.y.value_or(middle.y()), scene.specimen->high.z()};
 }
 
-std::string beside_text(const Vec3& place) {
-  return "the finger passes beside the specimen at x " + quantity_text(place.x(), unit::mm) +
-         ", y " + quantity_text(place.y(), unit::mm) +
-         "; set `finger.x` and `finger.y` to a place above it";
+KeyError beside(const Vec3& place, const Vec3& low, const Vec3& high) {
+  const Vec3 off = (place - 0.5 * (low + high)).cwiseAbs().cwiseQuotient(high - low);
+  return {off.x() >= off.y() ? "finger.x" : "finger.y",
+          "the finger passes beside the specimen at x " + quantity_text(place.x(), unit::mm) +
+              ", y " + quantity_text(place.y(), unit::mm) +
+              "; set `finger.x` and `finger.y` to a place above it"};
 }
 
 FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& place,
@@ -30,8 +32,7 @@ FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& plac
   const double radius = spheres.radius;
   contact::Detector detector(surface);
   std::vector<geometry::SmoothSurface::ClosestPoint> feet;
-  double lowest = place.z();
-  for (const Vec3& vertex : surface.surface().vertices) lowest = std::min(lowest, vertex.z());
+  const geometry::Box box = geometry::box_of(surface.surface().vertices);
   FirstTouch touch;
   touch.finger = place;
   // Whether a sphere touches if the finger's point is at height z; stores the deepest touch.
@@ -54,7 +55,7 @@ FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& plac
   double clear = place.z() + 2.0 * radius;
   double touching = clear;
   while (!touches(touching)) {
-    if (touching < lowest) throw MeshError(beside_text(place));
+    if (touching < std::min(place.z(), box.low.z())) throw beside(place, box.low, box.high);
     clear = touching;
     touching -= 0.25 * radius;
   }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <string>
 
+#include "base/error.h"
 #include "geometry/smooth_surface.h"
 #include "scene/scene.h"
 
@@ -22,15 +22,16 @@ struct Spheres {
   double radius = 0.0;            // m, of each
 };
 
-// Says that the finger passes beside the specimen at the x and y of a place (m).
-[[nodiscard]] std::string beside_text(const Vec3& place);
+// That the finger passes beside the specimen, whose box (m) is given, at the x and y of a place
+// (m): an error at the key of the coordinate that is farther off.
+[[nodiscard]] KeyError beside(const Vec3& place, const Vec3& low, const Vec3& high);
 
 // Lowers spheres vertically onto a surface, with their reference point above the place (m), whose
-// height is at least that of the surface's top. Throws MeshError if they pass beside the surface.
+// height is at least that of the surface's top. Throws KeyError if they pass beside the surface.
 [[nodiscard]] FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& place,
                                       const Spheres& spheres);
 
-// Lowers the finger vertically at its x and y onto the undeformed specimen. Throws MeshError if the
+// Lowers the finger vertically at its x and y onto the undeformed specimen. Throws KeyError if the
 // finger passes beside the specimen.
 [[nodiscard]] FirstTouch first_touch(const Scene& scene);
 

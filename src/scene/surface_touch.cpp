@@ -45,6 +45,12 @@ SurfaceTouch of_half_space(const scenario::HalfSpace& half) {
   return touch;
 }
 
+void set_beside(SurfaceTouch& touch, const KeyError& error) {
+  touch.cannot = error.what();
+  touch.nowhere = true;
+  touch.beside = error.key();
+}
+
 SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
   SurfaceTouch touch;
   touch.size = touch.high = geometry::extent(shape);
@@ -55,8 +61,7 @@ SurfaceTouch of_shape(const geometry::Shape& shape, const Scenario& scenario) {
   const double radius = scenario.finger.radius;
   const auto found = geometry::touch_from_above(shape, x, y, radius);
   if (!found) {
-    touch.cannot = beside_text(touch.lowest);
-    touch.nowhere = true;
+    set_beside(touch, beside(touch.lowest, Vec3::Zero(), touch.size));
   } else if (found->on_edge) {
     touch.position = found->position;
     touch.cannot = std::holds_alternative<geometry::Cuboid>(shape)
@@ -225,9 +230,8 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   FirstTouch first;
   try {
     first = lowered_onto(surface, touch.lowest, {{&centre, 1}, radius});
-  } catch (const MeshError& error) {
-    touch.cannot = error.what();
-    touch.nowhere = true;
+  } catch (const KeyError& error) {
+    set_beside(touch, error);
     return touch;
   }
   touch.position = surface.position(first.at);

@@ -35,6 +35,7 @@ struct SurfaceTouch {
   std::string cannot = {};   // why there is no curvature; empty if there is one
   std::string warning = {};  // on what was made of the file; empty if it is taken as it is
   bool nowhere = false;      // no model can press here: beside the body, or it is not sound
+  std::string beside = {};   // the key of the place, if that is beside the body
 
   [[nodiscard]] bool known() const { return cannot.empty(); }
   [[nodiscard]] bool curved() const { return curvature.kappa_1 != 0.0 || curvature.kappa_2 != 0.0; }

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "blocks.h"
 #include "chart/truth.h"
+#include "plot/gnuplot_text.h"
 #include "run/family.h"
 #include "run_text.h"
 #include "scenario/words.h"
@@ -85,50 +86,57 @@ void blocks_table() {
 void figure(const std::string& path) {
   std::FILE* file = std::fopen(path.c_str(), "w");
   if (file == nullptr) return;
-  std::fputs(
-      "set terminal svg size 900,420 font 'sans,13' background 'white'\n"
-      "set output 'docs/accuracy.svg'\nset multiplot layout 1,2\nset logscale x\n"
-      "set termoption noenhanced\nset xlabel 'nodes'\nset ylabel 'force over the middle of the "
-      "band'\n"
-      "set xrange [100:4000]\nset yrange [0.85:1.15]\nset key bottom right\nset grid ytics\n",
-      file);
-  const char* const wanted[] = {"block30-nu45", "block10-nu45"};
-  const char* const titles[] = {"60 x 60 x 30 mm, nu 0.45", "60 x 60 x 10 mm, nu 0.45"};
-  for (std::size_t b = 0; b < 2; ++b) {
+  std::string script =
+      plot::gnuplot_head("accuracy", {.height = 700}) +
+      "set multiplot layout 2,1\nset xlabel 'nodes'\nset ylabel 'force over the "
+      "middle of the band'\nset yrange [0.9:1.1]\nset key bottom right samplen 1.5 font ',12'\n" +
+      plot::gnuplot_logarithmic("x", 100.0, 4000.0) + "set xrange [100:4000]\n";
+  const std::pair<const char*, const char*> panels[] = {
+      {"block30-nu45", "60 x 60 x 30 mm, nu 0.45"}, {"block10-nu45", "60 x 60 x 10 mm, nu 0.45"}};
+  for (const auto& [wanted, title] : panels)
     for (const test::Block& block : test::blocks()) {
-      if (block.name != wanted[b]) continue;
+      if (block.name != wanted) continue;
       const test::Block::Row& row = block.rows.back();
       const double middle = 0.5 * (row.low + row.high);
-      std::string plots;
-      int series = 0;
+      std::vector<std::pair<std::string, std::string>> curves;  // equal ones once: data and names
       const std::pair<const char*, const char*> model_traits[] = {
           {"mass_spring", "none"}, {"mass_spring", "nodal"}, {"coupled_springs", "nodal"}};
       for (const auto& [model, volume] : model_traits) {
-        std::fprintf(file, "$d%zu%d << EOD\n", b, series);
+        std::string points;
         for (const int nodes : {164, 400, 728, 1500, 3000}) {
           auto settings = block.settings;
           settings.push_back(std::string("solver.model=") + model);
           settings.push_back(std::string("solver.volume=") + volume);
           settings.push_back("tissue.mesh={kind=\"tetgen\",nodes=" + std::to_string(nodes) + "}");
           const auto record = run_text(test::programme(block), settings);
-          std::fprintf(file, "%d %.6f\n", nodes, record.contact.back().force / middle);
+          points += std::to_string(nodes) + "," +
+                    rounded_text(record.contact.back().force / middle, 7) + "\n";
         }
-        std::fputs("EOD\n", file);
-        plots += (series > 0 ? ", " : "") + std::string("$d") + std::to_string(b) +
-                 std::to_string(series) + " with linespoints pt 7 lw 2 title '" + model +
-                 (std::string(model) == "mass_spring" && std::string(volume) == "nodal"
-                      ? ", nodal volume'"
-                      : "'");
-        ++series;
+        const bool added = model == std::string("mass_spring") && volume == std::string("nodal");
+        const std::string name = model + std::string(added ? ", nodal volume" : "");
+        const auto same =
+            std::ranges::find(curves, points, &std::pair<std::string, std::string>::first);
+        if (same == curves.end())
+          curves.emplace_back(points, name);
+        else
+          same->second += "; " + name;
       }
-      std::fprintf(file,
-                   "set title '%s'\nset object %zu rect from graph 0, first %.6f to graph 1, first "
-                   "%.6f fc rgb '#dddddd' fs solid noborder behind\nplot %s \n"
-                   "unset object\n",
-                   titles[b], b + 1, row.low / middle, row.high / middle, plots.c_str());
+      script += "set title '" + std::string(title) +
+                "'\nset object 1 rectangle from graph 0, first " + rounded_text(row.low / middle) +
+                " to graph 1, first " + rounded_text(row.high / middle) +
+                " fillcolor rgb '#dddddd' fillstyle solid noborder behind\n";
+      std::string plots;
+      for (std::size_t i = 0; i < curves.size(); ++i) {
+        const std::string data = "$" + block.name.substr(0, 7) + std::to_string(i);
+        script += data + " << EOD\nnodes,force\n" + curves[i].first + "EOD\n";
+        plots +=
+            (i > 0 ? ", " : "plot ") + data +
+            " using 1:2 with linespoints pointtype 7 pointsize 0.6 linewidth 2 linecolor rgb '#" +
+            plot::line_colours.at(i) + "' title '" + curves[i].second + "'";
+      }
+      script += plots + "\nunset object 1\n";
     }
-  }
-  std::fputs("unset multiplot\n", file);
+  std::fputs((script + "unset multiplot\n").c_str(), file);
   std::fclose(file);
 }
 
@@ -209,10 +217,7 @@ void auto_table() {
       "the reference are\nin percent of the largest force, or of the largest strain of a uniform "
       "test. Predicted errors are in brackets.\nThe reference is that of `palpate chart`.\n\n"
       "| scene | reference | its error |");
-  std::vector<scenario::ModelTraits> model_traits;
-  std::copy_if(scenario::model_table.begin(), scenario::model_table.end(),
-               std::back_inserter(model_traits),
-               [](const scenario::ModelTraits& traits) { return !traits.solid; });
+  const auto& model_traits = scenario::model_table;
   for (const scenario::ModelTraits& traits : model_traits) std::printf(" %s |", traits.word);
   std::printf(" taken |\n|---|---|---|");
   for (std::size_t i = 0; i < model_traits.size(); ++i) std::printf("---|");
@@ -249,19 +254,19 @@ void auto_table() {
 }  // namespace palpate
 
 // The first argument names the gnuplot script of the figure; a second one the only table to write:
-// `blocks`, `bodies`, `uniform` or `auto`.
+// `blocks`, `bodies`, `uniform` or `auto`; `figure` makes the script alone.
 int main(int count, char** arguments) {
   const std::string only = count > 2 ? arguments[2] : "";
   const auto wanted = [&](const char* table) { return only.empty() || only == table; };
   if (wanted("blocks")) {
     palpate::blocks_table();
-    if (count > 1) palpate::figure(arguments[1]);
     std::printf(
         "\n![Force against nodes](accuracy.svg)\n\nThe same at 1 mm on TetGen's meshes. The grey "
         "band is that of linear elasticity. The force at rest of both\nkinds of springs comes from "
         "the "
         "same finite elements.\n");
   }
+  if (count > 1 && wanted("figure")) palpate::figure(arguments[1]);
   if (wanted("bodies")) palpate::bodies_table();
   if (wanted("uniform")) palpate::uniform_table();
   if (wanted("auto")) palpate::auto_table();

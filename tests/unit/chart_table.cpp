@@ -185,6 +185,11 @@ TEST(ChartTable, SentencesToActOn) {
   EXPECT_NE(text.find("; `auto` took `auto` (0.5 %, 100 µs per ms), at 50 times the cost."),
             std::string::npos)
       << text;
+  chart.rows[2].variant.group = "base";
+  chart.rows[2].model = "coupled_springs";
+  text = chart_text({chart});
+  EXPECT_NE(text.find("; `auto` took `coupled_springs` (0.5 %"), std::string::npos) << text;
+  chart.rows[2].variant.group.clear();
   chart.rows[3].variant.name = "auto";
   chart.rows[2].variant.name = "dear";
   EXPECT_NE(chart_text({chart}).find("(10 %, 200 µs per ms), which is outside."),

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 
 #include "program.h"
 #include "record/csv.h"
@@ -72,6 +73,9 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
   EXPECT_NE(done.out.find("tissue.young_modulus"), std::string::npos);
   EXPECT_NE(done.out.find("by `hertz`"), std::string::npos);
   EXPECT_NE(done.out.find("A contact point 0.05 mm earlier or later"), std::string::npos);
+  EXPECT_TRUE(std::regex_search(
+      done.out, std::regex("later changes `tissue.young_modulus` by -[1-9](\\.[0-9])? % or \\+")))
+      << "two digits: " << done.out;
   const auto result = folder_ / "out/press_identified";
   const record::Table table = record::read_csv((result / "identified.csv").string());
   ASSERT_EQ(table.rows.size(), 1U);
@@ -87,6 +91,7 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
   EXPECT_NE(read_file(result / "curve.svg").find(">Measured - model ("), std::string::npos)
       << "gnuplot omits a label that has no place";
 
+  EXPECT_NE(read_file(result / "report.html").find("Young&#39;s modulus "), std::string::npos);
   EXPECT_NE(read_file(result / "report.html")
                 .find("palpate identify measured.csv press.toml --unknown &#39;tissue.young_modulus"
                       "=1..500 kPa&#39;<"),

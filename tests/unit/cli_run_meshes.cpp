@@ -296,8 +296,9 @@ TEST_F(RunMeshes, regions_that_are_not_there) {
 }
 
 TEST_F(RunMeshes, a_finger_beside_the_specimen) {
-  expect_refused("[finger]\nx = \"500 mm\"\n" + steps, 5,
-                 "the finger passes beside the specimen at x 500 mm, y 30 mm; set `finger.x` and "
+  expect_refused("[finger]\nx = \"500 mm\"\n" + steps, 2,
+                 "press.toml:2:5: the finger passes beside the specimen at x 500 mm, y 30 mm; set "
+                 "`finger.x` and "
                  "`finger.y` to a place above it");
 }
 

@@ -50,8 +50,9 @@ TEST_F(RunSurfaces, are_refused_with_the_reason_and_a_remedy) {
               "the surface is inclined by 68 degrees where the finger touches it, and the formula "
               "holds up to 60" +
               mesh);
-  refused("x = \"90 mm\"\n", 5,
-          "the finger passes beside the specimen at x 90 mm, y 40 mm; set `finger.x` and "
+  refused("x = \"90 mm\"\n", 2,
+          "press.toml:11:5: the finger passes beside the specimen at x 90 mm, y 40 mm; set "
+          "`finger.x` and "
           "`finger.y` to a place above it");
 }
 

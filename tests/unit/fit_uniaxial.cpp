@@ -84,7 +84,7 @@ TEST(Uniaxial, ModulusOverARange) {
 
 // Diameter 20 mm, height 10 mm: S = 1/2 and 1 + 2 S^2 = 1.5.
 TEST(Uniaxial, BondedPlatens) {
-  EXPECT_EQ(gent_lindley(0.5), 1.5);
+  EXPECT_EQ(bonded_stiffening(0.5), 1.5);
   StressCurve curve;
   for (int i = 0; i <= 20; ++i) {
     curve.strain.push_back(0.002 * i);
@@ -93,6 +93,32 @@ TEST(Uniaxial, BondedPlatens) {
   const Fit fit = fit_of(curve, {.shape_factor = 0.5});
   EXPECT_NEAR(fit.parameters[0].estimate, 14.7, 1e-9 * 14.7);  // exact data
   EXPECT_NE(fit.law.find("Gent and Lindley 1959"), std::string::npos);
+  // 1 + 1 / (1/(2 S^2) + 1/(M/E - 1)), M/E = (1 - nu) / ((1 + nu) (1 - 2 nu)): 1.424 at nu 0.45,
+  // 1.205 at 0.3.
+  ASSERT_EQ(fit.warnings.size(), 1U);
+  EXPECT_NE(
+      fit.warnings[0].find("at nu = 0.45 the modulus would be 5.3 % higher, at nu = 0.3 25 %;"),
+      std::string::npos)
+      << fit.warnings[0];
+}
+
+// A flat disc whose tissue can be compressed is stiffened by less than its modulus of uniaxial
+// strain over E, whatever its shape.
+TEST(Uniaxial, BondedPlatensOfCompressibleTissue) {
+  const double confined = 0.7 / (1.3 * 0.4);                   // of nu 0.3
+  EXPECT_NEAR(bonded_stiffening(100.0, 0.3), confined, 1e-4);  // 1 / (2 S^2)
+  EXPECT_EQ(bonded_stiffening(0.5, 0.5), 1.5);
+  EXPECT_EQ(bonded_stiffening(0.5, 0.0), 1.0) << "it does not widen";
+  StressCurve curve;
+  const double factor = 1.0 + 1.0 / (1.0 / 2.0 + 1.0 / (confined - 1.0));  // S = 1
+  for (int i = 0; i <= 20; ++i) {
+    curve.strain.push_back(0.002 * i);
+    curve.stress.push_back(factor * specimen_young * curve.strain.back());
+  }
+  const Fit fit = fit_of(curve, {.shape_factor = 1.0, .poisson_ratio = 0.3});
+  EXPECT_NEAR(fit.parameters[0].estimate, 14.7, 1e-9 * 14.7);  // exact data
+  EXPECT_TRUE(fit.warnings.empty());
+  EXPECT_NE(fit.law.find("for nu = 0.3"), std::string::npos) << fit.law;
 }
 
 TEST(Uniaxial, Refusals) {

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <regex>
+#include <set>
+
+#include "plot/gnuplot_text.h"
 
 namespace palpate::report {
 namespace {
@@ -70,8 +73,26 @@ TEST(ScenePicture, draws_what_looks_up_and_merges_one_colour) {
   std::swap(picture.faces[1].corners[0], picture.faces[1].corners[1]);  // looks down
   EXPECT_EQ(occurrences(scene_svg(picture, ""), "z\"/>"), 1U);
   picture = flat();
+  picture.materials = {"skin", "muscle"};
   picture.faces[1].region = 1;
   EXPECT_EQ(paths(), 2U);
+}
+
+// In every scene a tissue has the colour of its curves, half of it white.
+TEST(ScenePicture, a_tissue_has_one_colour_wherever_it_is) {
+  ScenePicture picture;
+  const auto colours = [&](const std::vector<std::string>& materials) {
+    picture.materials = materials;
+    return scene_colours(picture);
+  };
+  EXPECT_STREQ(plot::line_colours[0], "0072B2");
+  const std::string skin = "#80b9d9";  // (0, 114, 178) and white
+  EXPECT_EQ(colours({"skin", "muscle"})[0], skin);
+  EXPECT_EQ(colours({"muscle", "skin"})[1], skin);
+  EXPECT_EQ(colours({"muscle", "skin"})[0], colours({"skin", "muscle"})[1]);
+  // Regions of one tissue differ, also from other tissues; so do tissues of own tables.
+  const auto many = colours({"skin", "skin", "a", "b", "a", ScenePicture::cavity});
+  EXPECT_EQ(std::set<std::string>(many.begin(), many.end()).size(), 7U);  // with the held surface
 }
 
 TEST(ScenePicture, paints_the_nearest_last) {
@@ -80,6 +101,7 @@ TEST(ScenePicture, paints_the_nearest_last) {
     return svg.substr(svg.find("<path fill="), 19);
   };
   ScenePicture low = flat();  // of region 1
+  low.materials = {"skin", "muscle"};
   for (auto& face : low.faces) face.region = 1;
   ScenePicture above = low;
   add_flat(above, 0.004, 0, -1);
@@ -307,6 +329,7 @@ TEST(ScenePicture, text_is_safe_in_xml) {
 
 TEST(ScenePicture, of_5000_triangles_stays_below_2_MB) {
   ScenePicture picture;
+  picture.materials = {"skin"};
   const auto height = [](int i, int j) {
     return Vec3(1e-3 * i, 1e-3 * j, 2e-3 * std::sin(0.3 * i) * std::cos(0.4 * j));
   };

@@ -26,6 +26,16 @@ TEST(Steps, GoOnFromWhereTheLastOneEnded) {
       "it; use `indent` to go deeper");
 }
 
+TEST(Steps, PressAtLeastOnce) {
+  const std::string hold = "[[step]]\nkind = \"hold\"\ntime = \"1 s\"\n";
+  const std::string sentence =
+      "press.toml:1:1: no `step` presses the finger into the tissue; begin with `kind = "
+      "\"indent\"`";
+  EXPECT_EQ(refusal(hold), sentence);
+  EXPECT_EQ(refusal(hold + step("retract", "-1 mm")), sentence);
+  EXPECT_EQ(refusal(hold + step("indent", "1 mm")), "accepted");
+}
+
 TEST(Steps, AStepToAForceLeavesTheTravelOpen) {
   EXPECT_EQ(refusal(step("indent", "1 N") + step("indent", "2 N") + step("retract", "0 mm")),
             "accepted");
