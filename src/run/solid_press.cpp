@@ -36,19 +36,33 @@ double free_wall(const scene::Scene& scene) {
                                                                                : HUGE_VAL;
 }
 
+// How thick a skin on the body is that is much stiffer than what lies below it and bends with it,
+// m.
+double stiff_skin(const scene::Scene& scene) {
+  constexpr double stiffer = 15.0;  // below that, elements of the usual size serve
+  const contact::Layer layer = scene::layers_of(scene.scenario, 1.0);
+  double softest = 1.0;
+  for (const auto& one : layer.below) softest = std::min(softest, one.stiffness);
+  return stiffer * softest < 1.0 ? layer.top() * scene.choice.touch.thickness : HUGE_VAL;
+}
+
 }  // namespace
 
 SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   std::size_t count = meshes_for(scene.scenario.solver.tolerance);
   deepest_ = scene::deepest_travel(scene.scenario, scene.finger.whole);
   // Elements much wider than a wall make it too stiff, by 2.5 times where they are eight times as
-  // wide. They are up to half as large, and a second mesh says what is left of that.
+  // wide, and so do those wider than a stiff skin that bends, by up to 14 %. They are smaller
+  // there, and a second mesh says what is left of that.
   constexpr double finest = 2.0;
+  constexpr double finest_on_skin = 1.3;
   const double width = std::sqrt(scene.finger.sphere_radius * deepest_);
   const double wall = free_wall(scene);
   in_steps_ = deepest_ > wall;  // a shell buckles from about a travel of its thickness on
-  if (const double wanted = width / wall; wanted > per_radius.front()) {
-    finer_ = std::min(finest, wanted / per_radius.front());
+  const double skin = stiff_skin(scene);
+  on_skin_ = skin < wall && width / skin > per_radius.front();
+  if (const double wanted = width / std::min(wall, skin); wanted > per_radius.front()) {
+    finer_ = std::min(on_skin_ ? finest_on_skin : finest, wanted / per_radius.front());
     count = std::max<std::size_t>(count, 2);
   }
   asked_.assign(per_radius.begin(), per_radius.begin() + static_cast<std::ptrdiff_t>(count));
@@ -199,6 +213,8 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   // The meshes are made for the deepest travel, and for a width on edges; their elements are larger
   // beside smaller and narrower contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
+  // Elements that are wider than a skin are as good on two meshes as others on one.
+  if (on_skin_ && presses_.size() < 3) error_ = std::max(error_, solid::error_of_one_mesh);
   // Meshes on which a wall buckles at other displacements agree here and there by luck, and do not
   // converge with the square of their size: their largest difference on the way is stated.
   if (presses_.back()->buckles() && best.force > 0.0) {

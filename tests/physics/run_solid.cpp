@@ -249,6 +249,22 @@ TEST(Solid, AnElasticFingerOnASkinThatBendsIsThatOfTheStack) {
   }
 }
 
+// A skin of 1 mm, a hundred times as stiff as what lies below it, has 0.1160 N by CalculiX 2.20
+// (axisymmetric, CAX8, NLGEOM, a disc of the block's area). Elements as wide as elsewhere were 3.4
+// % too stiff, and on a skin of 0.3 mm three hundred times as stiff 13 %.
+TEST(Solid, HasSmallerElementsInAStiffSkin) {
+  const record::CaseRecord record = test::run_text(
+      "[tissue]\nyoung_modulus = \"1000 kPa\"\npoisson_ratio = 0.45\nviscosity = \"none\"\n"
+      "shape = { size = [\"56 mm\", \"56 mm\", \"20 mm\"] }\n[[region]]\nkind = \"slab\"\n"
+      "bottom = \"0 mm\"\ntop = \"19 mm\"\nyoung_modulus = \"10 kPa\"\npoisson_ratio = 0.45\n"
+      "[finger]\nmaterial = \"rigid\"\nradius = \"10 mm\"\n[[step]]\nto = \"1 mm\"\nrate = \"1 "
+      "mm/s\"\n[output]\ninterval = \"500 ms\"\npressure_maps = false\n",
+      {"solver.model=solid"});
+  EXPECT_NEAR(record.contact.back().contact_force, 0.1160, 0.015 * 0.1160);
+  EXPECT_EQ(test::found(record, "meshes"), 2.0);
+  EXPECT_GE(test::found(record, "stated_error"), 0.03);
+}
+
 // Where one of both bodies hardly yields, the other takes the whole gap. A finger on bone, nu 0.49,
 // has 5.884 N by CalculiX 2.20 (axisymmetric, CAX8R, NLGEOM, a half-ball held at its equator; 0.1 %
 // less on coarser elements), and one a hundred thousand times as stiff as the tissue is rigid.
