@@ -63,7 +63,7 @@ def mesh(scene, per_radius):
     fine = contact / per_radius
     largest = scene["thin"] / 1.5 if "thin" in scene else min(size) / 2.5
     field = gmsh.model.mesh.field
-    distance = f"sqrt((x-{touch[0]})^2+(y-{touch[1]})^2+(z-{touch[2]})^2)"
+    distance = "sqrt(" + "+".join(f"({axis}-({at:.12f}))^2" for axis, at in zip("xyz", touch)) + ")"
     size_of = f"({fine} + 0.35 * 0.5 * ({distance} - {1.3 * contact} + abs({distance} - {1.3 * contact})))"
     one = field.add("MathEval")
     field.setString(one, "F", size_of)
@@ -127,7 +127,7 @@ def mesh(scene, per_radius):
         field = gmsh.model.mesh.field
         one = field.add("MathEval")
         lowest = ball_height - scene["radius"]
-        distance = f"sqrt((x-{middle[0]})^2+(y-{middle[1]})^2+(z-{lowest})^2)"
+        distance = "sqrt(" + "+".join(f"({axis}-({at:.12f}))^2" for axis, at in zip("xyz", (*middle[:2], lowest))) + ")"
         field.setString(one, "F", f"{fine} + 0.35 * 0.5 * ({distance} - {1.3 * contact} + abs({distance} - {1.3 * contact}))")
         field.setAsBackgroundMesh(one)
         for option in ("MeshSizeExtendFromBoundary", "MeshSizeFromPoints"):
