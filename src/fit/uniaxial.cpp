@@ -13,6 +13,7 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "contact/platens.h"
 #include "fit/ceres_fit.h"
 #include "fit/parts.h"
 #include "fit/residuals.h"
@@ -518,7 +519,8 @@ class UniaxialFit {
   // The stiffening by bonded platens divides every modulus.
   void platens() {
     if (!test_.shape_factor) return;
-    const double factor = bonded_stiffening(*test_.shape_factor, test_.poisson_ratio.value_or(0.5));
+    const double factor =
+        contact::bonded_stiffening(*test_.shape_factor, test_.poisson_ratio.value_or(0.5));
     for (Estimate& one : fit_.parameters) {
       if (one.name.starts_with("alpha") || one.name == "sigma_0") continue;
       for (double* value : {&one.estimate, &one.std_error, &one.ci95_low, &one.ci95_high})
@@ -532,7 +534,7 @@ class UniaxialFit {
                     : ", divided by 1 + 2 S^2 = " + rounded_text(factor) +
                           " of bonded platens, Gent and Lindley 1959, for nu = 1/2";
     const auto higher = [&](double nu) {
-      return factor / bonded_stiffening(*test_.shape_factor, nu) - 1.0;
+      return factor / contact::bonded_stiffening(*test_.shape_factor, nu) - 1.0;
     };
     if (!test_.poisson_ratio && higher(0.45) > 0.02)
       fit_.warnings.push_back(
@@ -562,13 +564,6 @@ class UniaxialFit {
 };
 
 }  // namespace
-
-double bonded_stiffening(double shape_factor, double poisson_ratio) {
-  const double nu = poisson_ratio;
-  const double free = 2.0 * shape_factor * shape_factor;
-  const double over_confined = (1.0 + nu) * (1.0 - 2.0 * nu) / (2.0 * nu * nu);  // 1 / (M/E - 1)
-  return nu > 0.0 ? 1.0 + free / (1.0 + free * over_confined) : 1.0;
-}
 
 Fit fit_uniaxial(std::span<const double> strain, std::span<const double> stress,
                  const UniaxialTest& test) {

@@ -30,12 +30,6 @@ struct UniaxialTest {
   Residuals residuals = Residuals::independent;
 };
 
-// The stiffening of a cylinder between bonded platens, of incompressible material
-// E_apparent / E = 1 + 2 S^2                Gent and Lindley 1959, Proc. Inst. Mech. Eng. 173
-// and of other material this in series with the modulus of uniaxial strain, as a scenario has it,
-// within 15 %.                              docs/theory.md [bonded] and below [compression]
-[[nodiscard]] double bonded_stiffening(double shape_factor, double poisson_ratio = 0.5);
-
 // Fits engineering strain and nominal stress (Pa), of equal size. Where strain and stress are both
 // negative, both are turned, and the loading is compression. Parameters: `modulus`: E_tangent, the
 // slope of the least-squares line, sigma_0, its stress at strain 0, and E_secant from the first row

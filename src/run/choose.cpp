@@ -183,8 +183,7 @@ class Chooser {
   // What a mesh misses of a specimen of several tissues or with fixed ends, by another with shorter
   // or longer cells: stresses are singular where borders of tissues and fixed ends meet the free
   // side, so that the error goes with the length of the cells, or more slowly.
-  //                                                                     docs/theory.md
-  //                                                                     [compression]
+  //                                                          docs/theory.md, below [compression]
   [[nodiscard]] double uneven_mesh_error() {
     scenario::Resolved other = asked_;
     scenario::Mesh& mesh = other.tissue.mesh;

@@ -36,8 +36,7 @@ double free_wall(const scene::Scene& scene) {
                                                                                : HUGE_VAL;
 }
 
-// How thick a skin on the body is that is much stiffer than what lies below it and bends with it,
-// m.
+// How thick a skin is that is much stiffer than what lies below it and bends with it, m.
 double stiff_skin(const scene::Scene& scene) {
   constexpr double stiffer = 15.0;  // below that, elements of the usual size serve
   const contact::Layer layer = scene::layers_of(scene.scenario, 1.0);

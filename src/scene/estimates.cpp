@@ -9,6 +9,7 @@
 #include "base/numerics.h"
 #include "contact/hertz.h"
 #include "contact/patch.h"
+#include "contact/platens.h"
 #include "scenario/programme.h"
 #include "scene/refining_press.h"
 #include "scene/scene.h"
@@ -277,10 +278,7 @@ double bonded_stiffening(const scenario::Resolved& scenario, double poisson_rati
   Vec3 size = geometry::extent(*shape);
   if (!geometry::stands(*shape)) std::swap(size.y(), size.z());
   const double form = 0.25 * ends * size.x() * size.y() / (size.z() * (size.x() + size.y()));
-  const double confined =
-      (1.0 - poisson_ratio) / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));
-  if (form == 0.0 || confined <= 1.0) return 1.0;
-  return 1.0 + 1.0 / (1.0 / (2.0 * form * form) + 1.0 / (confined - 1.0));
+  return contact::bonded_stiffening(form, poisson_ratio);
 }
 
 double expected_nodes(const scenario::Mesh& mesh) {

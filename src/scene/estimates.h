@@ -47,10 +47,8 @@ struct Estimates {
 // Meshes that follow their error are refined until this share of `solver.tolerance` is stated.
 inline constexpr double refined_share = 0.5;
 
-// How much stiffer bonded ends make a prism between platens, for a Poisson's ratio below 1/2: 1 + 2
-// S^2 of an incompressible one (Gent and Lindley 1959), S its loaded over its free surface, in
-// series with the modulus of uniaxial strain. One bonded end is the middle of a body of twice the
-// height. Within 15 % of solutions by refined meshes.         docs/theory.md, below [compression]
+// contact::bonded_stiffening() of a prism between its platens; one bonded end is the middle of a
+// body of twice the height.
 [[nodiscard]] double bonded_stiffening(const scenario::Resolved& scenario, double poisson_ratio);
 
 // The longest edge (m) of a mesh that still carries the waves of a fast press: half of the way of a

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "contact/platens.h"
 #include "refusal.h"
 
 namespace palpate::fit {
@@ -84,7 +85,7 @@ TEST(Uniaxial, ModulusOverARange) {
 
 // Diameter 20 mm, height 10 mm: S = 1/2 and 1 + 2 S^2 = 1.5.
 TEST(Uniaxial, BondedPlatens) {
-  EXPECT_EQ(bonded_stiffening(0.5), 1.5);
+  EXPECT_EQ(contact::bonded_stiffening(0.5), 1.5);
   StressCurve curve;
   for (int i = 0; i <= 20; ++i) {
     curve.strain.push_back(0.002 * i);
@@ -105,10 +106,10 @@ TEST(Uniaxial, BondedPlatens) {
 // A flat disc whose tissue can be compressed is stiffened by less than its modulus of uniaxial
 // strain over E, whatever its shape.
 TEST(Uniaxial, BondedPlatensOfCompressibleTissue) {
-  const double confined = 0.7 / (1.3 * 0.4);                   // of nu 0.3
-  EXPECT_NEAR(bonded_stiffening(100.0, 0.3), confined, 1e-4);  // 1 / (2 S^2)
-  EXPECT_EQ(bonded_stiffening(0.5, 0.5), 1.5);
-  EXPECT_EQ(bonded_stiffening(0.5, 0.0), 1.0) << "it does not widen";
+  const double confined = 0.7 / (1.3 * 0.4);                            // of nu 0.3
+  EXPECT_NEAR(contact::bonded_stiffening(100.0, 0.3), confined, 1e-4);  // 1 / (2 S^2)
+  EXPECT_EQ(contact::bonded_stiffening(0.5, 0.5), 1.5);
+  EXPECT_EQ(contact::bonded_stiffening(0.5, 0.0), 1.0) << "it does not widen";
   StressCurve curve;
   const double factor = 1.0 + 1.0 / (1.0 / 2.0 + 1.0 / (confined - 1.0));  // S = 1
   for (int i = 0; i <= 20; ++i) {
