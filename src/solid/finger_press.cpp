@@ -292,8 +292,8 @@ Moment FingerPress::moment_of(const Answer& answer, double force) {
 
 std::optional<Answer> FingerPress::go(double travel) {
   set_doing({order_.part + std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
-             quantity_text(travel / order_.share, unit::mm) + " of " +
-             quantity_text(order_.deepest, unit::mm)});
+             rounded_text(unit::mm.from_si(travel / order_.share), 3) + " of " +
+             rounded_text(unit::mm.from_si(order_.deepest), 3) + " mm"});
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) tissue_.end = press_->walls_meet() ? End::closes : End::folds;
   return found;
