@@ -344,5 +344,10 @@ TEST(ScenePicture, of_5000_triangles_stays_below_2_MB) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(TissueColours, AreOneForATissueWhereverItOccurs) {
+  const std::vector<std::size_t> wanted{5, 1, 6, 5, 0};
+  EXPECT_EQ(plot::tissue_colours({"liver", "muscle", "tumour", "liver", "skin"}), wanted);
+}
+
 }  // namespace
 }  // namespace palpate::report
