@@ -175,4 +175,50 @@ Near BoxTree::nearest(const Vec3& point) const {
   return best;
 }
 
+double BoxTree::first_along(const Vec3& point, const Vec3& direction, double least) const {
+  double best = std::numeric_limits<double>::infinity();
+  std::array<int, 64> stack;
+  int waiting = 0;
+  for (int next = 0; next >= 0; next = waiting > 0 ? stack[as_index(--waiting)] : -1) {
+    const Box& box = boxes_[as_index(next)];
+    double enters = least;
+    double leaves = best;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double low = box.low[axis] - point[axis];
+      const double high = box.high[axis] - point[axis];
+      if (direction[axis] == 0.0) {
+        if (low > 0.0 || high < 0.0) leaves = -1.0;
+        continue;
+      }
+      const double to_low = low / direction[axis];
+      const double to_high = high / direction[axis];
+      enters = std::max(enters, std::min(to_low, to_high));
+      leaves = std::min(leaves, std::max(to_low, to_high));
+    }
+    if (enters > leaves) continue;
+    if (box.count == 0) {
+      stack[as_index(waiting++)] = box.first + 1;
+      stack[as_index(waiting++)] = box.first;
+      continue;
+    }
+    for (int i = 0; i < box.count; ++i) {
+      const auto& [a, b, c] = triangles_[as_index(order_[as_index(box.first + i)])];
+      const Vec3 first = vertices_[as_index(a)] - point;
+      const Vec3 second = vertices_[as_index(b)] - point;
+      const Vec3 third = vertices_[as_index(c)] - point;
+      const std::array<double, 3> sides{direction.dot(second.cross(third)),
+                                        direction.dot(third.cross(first)),
+                                        direction.dot(first.cross(second))};
+      const auto [low, high] = std::minmax_element(sides.begin(), sides.end());
+      if (*low < 0.0 && *high > 0.0) continue;  // the line passes beside it
+      const double sum = sides[0] + sides[1] + sides[2];
+      if (sum == 0.0) continue;  // or within its plane
+      const double distance =
+          direction.dot(sides[0] * first + sides[1] * second + sides[2] * third) / sum;
+      if (distance > least) best = std::min(best, distance);
+    }
+  }
+  return best;
+}
+
 }  // namespace palpate::geometry

@@ -33,6 +33,10 @@ class BoxTree {
   // The nearest triangle; if several are equally near, the one with the lowest index.
   [[nodiscard]] Near nearest(const Vec3& point) const;
 
+  // How far (m) from `point` the first triangle along a unit vector is that lies beyond `least`
+  // (m); infinity if there is none.
+  [[nodiscard]] double first_along(const Vec3& point, const Vec3& direction, double least) const;
+
  private:
   struct Box {
     Vec3 low, high;

@@ -212,8 +212,9 @@ Elements::Elements(const Mesh& mesh, std::span<const tissue::Isotropic> tissues,
   for (const int region : mesh.regions) {
     const tissue::Isotropic& own = tissues[as_index(region)];
     shear_.push_back(tissue::shear_modulus(own));
-    bulk_.push_back(tissue::bulk_modulus(own));
-    mean_.push_back(own.poisson_ratio > mean_above ? 1 : 0);
+    const double bulk = tissue::bulk_modulus(own);
+    own_bulk_.push_back(std::min(bulk, own_share * shear_.back()));
+    mean_bulk_.push_back(bulk - own_bulk_.back());
   }
   pressures_.assign(points * mesh.elements.size(), 0.0);
   unknowns_.assign(3 * mesh.nodes.size(), -1);
@@ -308,7 +309,7 @@ double Elements::assemble(const Vector& displacement, Vector& force,
     Thirty volume_change{};
     double volume = 0.0;
     double now = 0.0;
-    const bool mean = mean_[e] != 0;
+    const bool mean = mean_bulk_[e] > 0.0;
     for (std::size_t q = points * e; q < points * (e + 1); ++q) {
       const Thirty& g = points_[q].gradient;
       const double w = points_[q].weight;
@@ -322,7 +323,7 @@ double Elements::assemble(const Vector& displacement, Vector& force,
       double first = 0.0;
       for (const double x : stretched) first += x * x;
       const double scaled = w * shear_[e] / std::cbrt(j * j);
-      const double own = mean ? 0.0 : bulk_[e];
+      const double own = own_bulk_[e];
       const double pressed = w * pressures_[q] * j;
       const double along = 2.0 / 9.0 * first * scaled + w * own * j * j + pressed;
       const double across = first / 3.0 * scaled - pressed;
@@ -355,8 +356,8 @@ double Elements::assemble(const Vector& displacement, Vector& force,
       }
     }
     if (mean) {
-      const double pressure = bulk_[e] * (now / volume - 1.0);
-      const double rate = bulk_[e] / volume;
+      const double pressure = mean_bulk_[e] * (now / volume - 1.0);
+      const double rate = mean_bulk_[e] / volume;
       for (std::size_t a = 0; a < 30; ++a) f[a] += pressure * volume_change[a];
       for (std::size_t r = 0; r < 30; ++r)
         for (std::size_t c = 0; c <= r; ++c)
@@ -385,12 +386,12 @@ double Elements::energy(const Vector& displacement) const {
       double first = 0.0;
       for (const double x : f) first += x * x;
       sum += 0.5 * w * shear_[e] * (first / std::cbrt(ratio * ratio) - 3.0);
-      if (mean_[e] == 0) sum += 0.5 * w * bulk_[e] * (ratio - 1.0) * (ratio - 1.0);
+      sum += 0.5 * w * own_bulk_[e] * (ratio - 1.0) * (ratio - 1.0);
       volume += w;
       now += w * ratio;
     }
     const double change = now / volume - 1.0;
-    if (mean_[e] != 0) sum += 0.5 * volume * bulk_[e] * change * change;
+    sum += 0.5 * volume * mean_bulk_[e] * change * change;
   }
   return sum;
 }
@@ -415,7 +416,7 @@ void Elements::advance(const Vector& displacement, const Vector& step, double sh
     }
     for (std::size_t q = 0; q < points; ++q) {
       double& pressure = pressures_[points * e + q];
-      const double next = bulk_[e] * (mean_[e] != 0 ? sum / volume : dilatation[q]);
+      const double next = own_bulk_[e] * dilatation[q] + mean_bulk_[e] * sum / volume;
       pressure += share * (next - pressure);
     }
   }

@@ -61,13 +61,14 @@ inline constexpr int points = 4;
 using Vector = Eigen::VectorXd;
 
 // The energy per volume is mu/2 (J^(-2/3) tr F^T F - 3) + kappa/2 (J - 1)^2, at four points of
-// every element. Where a tissue has nu above 0.46, J in the second term is the mean of the element,
-// so that it does not lock. The stiffness is taken at a pressure p of its own, which becomes kappa
-// (J - 1) by advance(): Newton's method then converges near nu = 1/2 as well.
+// every element. What kappa has above own_share mu acts on the mean J of the element, so that it
+// does not lock; all of it on the mean would let a single element bend too easily. The stiffness is
+// taken at a pressure p of its own, which becomes kappa (J - 1) by advance(): Newton's method then
+// converges near nu = 1/2 as well.
 //                                                                      docs/theory.md [solid]
 class Elements {
  public:
-  static constexpr double mean_above = 0.46;
+  static constexpr double own_share = 4.0;
 
   // `tissues` has one entry per region of the mesh. Degrees of freedom with `held` != 0 do not
   // move. The mesh must outlive this.
@@ -112,9 +113,8 @@ class Elements {
 
   const Mesh* mesh_;
   std::vector<tissue::Isotropic> tissues_;
-  std::vector<Point> points_;         // four per element
-  std::vector<double> shear_, bulk_;  // Pa, per element
-  std::vector<char> mean_;            // per element
+  std::vector<Point> points_;                         // four per element
+  std::vector<double> shear_, own_bulk_, mean_bulk_;  // Pa, per element
   std::vector<double> pressures_;
   std::vector<int> unknowns_;
   std::vector<int> first_;

@@ -25,6 +25,45 @@ constexpr double growth = 0.35;
 // Numbers of faces: flat ones, those of a file, the shape's round ones, then spheres, then planes.
 enum Number { flat = 1, of_file = 2, first_round = 3, first_sphere = 10, first_plane = 1000 };
 
+// How thick a body is inwards from its surface, where neither side is held.
+class Walls {
+ public:
+  Walls(const geometry::Surface& surface, const std::optional<Plane>& base)
+      : triangles_(surface.triangles), tree_(surface) {
+    const double size = geometry::box_of(surface.vertices).diagonal();
+    const double rounding = 1e-6 * size;
+    thickness_.assign(surface.vertices.size(), size);
+    const auto held = [&](const Vec3& side) { return base && base->beyond(side) < rounding; };
+    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+      const auto& corners = triangles_[as_index(t)];
+      Vec3 middle = Vec3::Zero();
+      for (const int v : corners) middle += surface.vertices[as_index(v)] / 3.0;
+      const Vec3 inwards = -geometry::twice_area(surface, t).normalized();
+      const double thickness = tree_.first_along(middle, inwards, rounding);
+      if (held(middle) || held(middle + thickness * inwards)) continue;
+      for (const int v : corners) {
+        double& least = thickness_[as_index(v)];
+        least = std::min(least, thickness);
+      }
+    }
+  }
+
+  // m, at the nearest place of the surface.
+  [[nodiscard]] double at(const Vec3& place) const {
+    const geometry::Near near = tree_.nearest(place);
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < 3; ++i)
+      sum +=
+          near.weights[i] * thickness_[as_index(triangles_[as_index(near.triangle)][as_index(i)])];
+    return sum;
+  }
+
+ private:
+  std::vector<std::array<int, 3>> triangles_;
+  geometry::BoxTree tree_;
+  std::vector<double> thickness_;  // m, the least around each vertex
+};
+
 class Mesher {
  public:
   explicit Mesher(const MeshOrder& order) : order_(order) {
@@ -52,7 +91,8 @@ class Mesher {
         }))
       net.cut(*base);
     fill_planes(net);
-    const auto size = [this](const Vec3& place) { return order_.sizes.at(place); };
+    const Walls walls(body_.parts.front().surface, order_.base);
+    const auto size = [&](const Vec3& place) { return order_.sizes.at(place, walls.at(place)); };
     net.refine(size, order_.surface != nullptr ? std::optional<int>(of_file) : std::nullopt);
     meshing::PieceMesh filled = meshing::tetgen_pieces(
         {{net.vertices(), net.triangles()}, net.numbers()}, size, time_limit);
@@ -98,7 +138,8 @@ class Mesher {
       const geometry::Inclusion& sphere = *order_.inclusions[i].sphere;
       geometry::Body checked = body_;
       geometry::add_inclusion(checked, sphere, 0.5 * sphere.radius);  // refuses one that sticks out
-      const double edge = std::min(0.75 * sphere.radius, 1.2 * order_.sizes.at(sphere.centre));
+      const double edge =
+          std::min(0.75 * sphere.radius, 1.2 * order_.sizes.at(sphere.centre, HUGE_VAL));
       const geometry::Surface ball =
           geometry::ellipsoid_surface(sphere.centre, Vec3::Constant(2.0 * sphere.radius), edge);
       const int before = static_cast<int>(faces_.vertices.size());
@@ -366,6 +407,8 @@ Mesh refined(const MeshOrder& order) {
   std::optional<geometry::CurvedEdges> curved;
   if (order.middles != nullptr) curved.emplace(mesh.nodes, *order.middles);
   meshing::TrueBoundary boundary(mesh, std::nullopt, {}, {});
+  const geometry::OuterSurface outer = geometry::outer_surface(mesh);
+  const Walls walls(outer.surface, order.base);
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<char> marks(mesh.tetrahedra.size(), 0);
     bool any = false;
@@ -382,7 +425,7 @@ Mesh refined(const MeshOrder& order) {
         most = std::max(most, (mesh.nodes[as_index(a)] - mesh.nodes[as_index(b)]).norm());
         on_border = on_border || border.contains({a, b});
       }
-      if (!on_border && most <= longest * order.sizes.at(middle)) continue;
+      if (!on_border && most <= longest * order.sizes.at(middle, walls.at(middle))) continue;
       marks[t] = 1;
       any = true;
     }
@@ -401,7 +444,9 @@ Mesh refined(const MeshOrder& order) {
 
 }  // namespace
 
-double Sizes::at(const Vec3& place) const {
+double Sizes::at(const Vec3& place, double wall) const {
+  constexpr double calm_walls = 2.5;  // of their thickness
+  constexpr double growth_of_walls = 0.1;
   double size = HUGE_VAL;
   double nearest = HUGE_VAL;
   for (const Spot& spot : spots) {
@@ -409,7 +454,10 @@ double Sizes::at(const Vec3& place) const {
     nearest = std::min(nearest, distance);
     size = std::min(size, spot.size + growth * std::max(0.0, distance - spot.radius));
   }
-  return std::min(size, largest + growth * std::max(0.0, nearest - calm));
+  size = std::min(size, largest + growth * std::max(0.0, nearest - calm));
+  if (!across) return size;
+  const double beyond = std::max(0.0, nearest - calm_walls * wall);
+  return std::min(size, std::max(spots.front().size, wall / *across + growth_of_walls * beyond));
 }
 
 Mesh mesh_for(const MeshOrder& order) {

@@ -26,9 +26,12 @@ struct Sizes {
   std::vector<Spot> spots;
   double largest = 0.0;    // m, up to `calm` from the centres of spots
   double calm = HUGE_VAL;  // m
+  // Elements across what bends: a wall of which neither side is held.
+  std::optional<double> across = {};
 
-  // m; 0.35 of the distance is added.                             docs/theory.md [solid_mesh]
-  [[nodiscard]] double at(const Vec3& place) const;
+  // m, where the body is `wall` (m) thick; 0.35 of the distance is added.
+  //                                                               docs/theory.md [solid_mesh]
+  [[nodiscard]] double at(const Vec3& place, double wall) const;
 };
 
 // A part of a body with a tissue of its own: a ball, or a slab from side to side.

@@ -31,7 +31,9 @@ Sizes sizes_for(const BodyOrder& order, const Box& extent) {
   const double a = std::sqrt(order.radius * order.travel);
   const double size = a / order.per_radius;
   const double height = extent.high.z() - extent.low.z();
-  sizes.largest = std::max(size, std::min(height / 2.2, 40.0 * size));
+  // Finer from mesh to mesh far away as well, or what bends there would seem to have converged.
+  sizes.across = 1.1 * order.per_radius;
+  sizes.largest = std::max(size, std::min(height / *sizes.across, 40.0 * size));
   sizes.calm = 2.5 * height;  // a thin body is at rest beyond
   double highest = -HUGE_VAL;
   for (const Vec3& at : order.touched) {

@@ -1,6 +1,7 @@
 // The solid against an independent program: tests/cases/solid.csv. docs/accuracy.md has the table.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "base/error.h"
 #include "run_text.h"
+#include "surface_file.h"
 
 namespace palpate {
 namespace {
@@ -150,6 +152,81 @@ TEST(Solid, LaysRegionsInTheirOrderAsSpringsDo) {
   }
 }
 
+// A seat on four legs of a quarter of its width: the outer faces of the cells of a lattice.
+geometry::Surface table(const Vec3& size, double seat) {
+  const std::array<std::array<double, 5>, 3> lines{
+      {{0.0, 0.25 * size.x(), 0.5 * size.x(), 0.75 * size.x(), size.x()},
+       {0.0, 0.25 * size.y(), 0.5 * size.y(), 0.75 * size.y(), size.y()},
+       {0.0, 0.5 * (size.z() - seat), size.z() - seat, size.z() - 0.5 * seat, size.z()}}};
+  const auto filled = [](const std::array<int, 3>& cell) {
+    for (const int i : cell)
+      if (i < 0 || i > 3) return false;
+    const auto outer = [](int i) { return i == 0 || i == 3; };
+    return cell[2] > 1 || (outer(cell[0]) && outer(cell[1]));
+  };
+  geometry::Surface surface;
+  std::map<std::array<int, 3>, int> vertices;
+  const auto vertex = [&](const std::array<int, 3>& at) {
+    const auto [found, added] = vertices.try_emplace(at, static_cast<int>(surface.vertices.size()));
+    if (added)
+      surface.vertices.emplace_back(lines[0][std::size_t(at[0])], lines[1][std::size_t(at[1])],
+                                    lines[2][std::size_t(at[2])]);
+    return found->second;
+  };
+  for (int n = 0; n < 64; ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const int side : {0, 1}) {
+        const std::array<int, 3> cell{n % 4, n / 4 % 4, n / 16};
+        std::array<int, 3> beside = cell;
+        beside[axis] += 2 * side - 1;
+        if (!filled(cell) || filled(beside)) continue;
+        std::array<int, 4> corners{};
+        for (std::size_t i = 0; i < 4; ++i) {  // counter-clockwise around the axis
+          std::array<int, 3> at = cell;
+          at[axis] += side;
+          at[(axis + 1) % 3] += i == 1 || i == 2 ? 1 : 0;
+          at[(axis + 2) % 3] += i >= 2 ? 1 : 0;
+          corners[i] = vertex(at);
+        }
+        if (side == 0) std::swap(corners[1], corners[3]);
+        surface.triangles.push_back({corners[0], corners[1], corners[2]});
+        surface.triangles.push_back({corners[0], corners[2], corners[3]});
+      }
+  return surface;
+}
+
+// N, under a finger at a place of the table's top, on one mesh.
+double force_on(const geometry::Surface& surface, const std::string& tissue,
+                const std::string& finger, const std::string& depth) {
+  const test::TemporaryFolder folder;
+  test::write_off(folder.path() / "body.off", surface);
+  return test::run_text("[tissue]\nviscosity = \"none\"\n" + tissue + "\nshape = { file = \"" +
+                        (folder.path() / "body.off").string() +
+                        "\", unit = \"mm\" }\n[finger]\nmaterial = \"rigid\"\n" + finger +
+                        "\n[solver]\nmodel = \"solid\"\n[[step]]\nkind = \"indent\"\nto = \"" +
+                        depth + "\"\nrate = \"1 mm/s\"\n[output]\npressure_maps = false\n")
+      .contact.back()
+      .contact_force;
+}
+
+// Elements as wide as a leg made the first 5 % too stiff. Where nu was above 0.46 they had only one
+// pressure each, and bent too easily: the second had 17.6 mN. Forces of CalculiX on meshes of
+// docs/accuracy.md.
+TEST(Solid, BendsTheLegsOfATable) {
+  EXPECT_NEAR(
+      force_on(table({44.6153e-3, 41.1964e-3, 22.6230e-3}, 9.69979e-3),
+               "young_modulus = \"39.6412 kPa\"\npoisson_ratio = 0.222407",
+               "radius = \"9.55162 mm\"\nx = \"24.7222 mm\"\ny = \"20.6932 mm\"", "0.989542 mm") /
+          74.533e-3,
+      1.0, 0.03);
+  EXPECT_NEAR(
+      force_on(table({39.0834e-3, 42.4684e-3, 23.3231e-3}, 8.40665e-3),
+               "young_modulus = \"8.85804 kPa\"\npoisson_ratio = 0.4693",
+               "radius = \"7.70484 mm\"\nx = \"16.9106 mm\"\ny = \"19.7145 mm\"", "1.10959 mm") /
+          18.377e-3,
+      1.0, 0.03);
+}
+
 // The pressure of a map along two lines through the finger, and the peak of every row, beside
 // Hertz's on a thick block; pressures of single integration points scatter by a third.
 TEST(Solid, HasHertzsPressures) {
@@ -172,9 +249,12 @@ rate = "1 mm/s"
   const auto peak = [](double depth) {  // Pa
     return 2.0 * 20e3 / (1.0 - 0.45 * 0.45) / M_PI * std::sqrt(depth / radius);
   };
+  // The mesh is made for the deepest displacement; at a third of it hardly more than one element
+  // is in the contact radius.
   for (const record::ContactRow& row : record.contact)
     if (row.travel > 0.1e-3) {
-      EXPECT_NEAR(row.peak_pressure / peak(row.travel), 1.0, 0.05) << row.travel;
+      EXPECT_NEAR(row.peak_pressure / peak(row.travel), 1.0, row.travel > 0.6e-3 ? 0.03 : 0.06)
+          << row.travel;
     }
   ASSERT_EQ(record.maps.size(), 1U);
   const record::PressureMap& map = record.maps.front();
