@@ -105,7 +105,7 @@ TEST(FingerPress, KeepsWhatItFoundWhereTheTissueFolds) {
   FingerOrder order = thin_layer();
   FingerPress folds(order);
   EXPECT_FALSE(folds.at_travel(8e-3));
-  EXPECT_NE(folds.reason().find("no equilibrium beyond a displacement of 3.6"), std::string::npos)
+  EXPECT_NE(folds.reason().find("no equilibrium beyond a displacement of 3.5"), std::string::npos)
       << folds.reason();
   order.deepest = 3e-3;
   FingerPress holds(order);
@@ -138,8 +138,9 @@ TEST(FingerPress, AnElasticFingerKeepsWhatItFoundToo) {
     const auto kept = folds.at_travel(travel);
     const auto found = holds.at_travel(travel);
     ASSERT_TRUE(kept && found) << end;
-    // Two meshes, each of which states this.
-    EXPECT_NEAR(kept->force, found->force, 2.0 * error_of_one_mesh * found->force);
+    // Two meshes, each of which states this; it grows with the inverse of the displacement.
+    EXPECT_NEAR(kept->force, found->force,
+                error_of_one_mesh * (8e-3 + 3.3e-3) / travel * found->force);
   }
 }
 
@@ -205,11 +206,15 @@ TEST(FingerPress, AWallThatBucklesIsPressedInSteps) {
   const geometry::SmoothSurface shell(cap_on_ring());
   FingerPress deep(on_cap(shell, 12e-3, 11.5e-3, 8.0));
   FingerPress less(on_cap(shell, 12e-3, 2.9e-3, 4.0));
-  for (const double travel : {0.75e-3, 1.5e-3, 2.9e-3}) {
+  // N, of a press of 2.9 mm with twice as many elements in the contact radius as the second.
+  const std::vector<std::pair<double, double>> fine{
+      {0.75e-3, 0.1429e-3}, {1.5e-3, 0.2059e-3}, {2.9e-3, 0.3063e-3}};
+  for (const auto& [travel, force] : fine) {
     const auto one = deep.at_travel(travel);
     const auto other = less.at_travel(travel);
     ASSERT_TRUE(one && other);
-    EXPECT_NEAR(one->force, other->force, 0.2 * other->force) << travel;  // steps of 0.7 mm
+    EXPECT_NEAR(one->force, force, 0.2 * force) << travel;  // steps of 0.7 mm
+    EXPECT_NEAR(other->force, force, 0.2 * force) << travel;
   }
   EXPECT_TRUE(deep.buckles());
   ASSERT_TRUE(deep.snap());
