@@ -56,11 +56,10 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   constexpr double finest = 2.0;
   constexpr double finest_on_skin = 1.3;
   const double width = std::sqrt(scene.finger.sphere_radius * deepest_);
-  const double wall = free_wall(scene);
-  in_steps_ = deepest_ > wall;  // a shell buckles from about a travel of its thickness on
+  wall_ = free_wall(scene);
   const double skin = stiff_skin(scene);
-  on_skin_ = skin < wall && width / skin > per_radius.front();
-  if (const double wanted = width / std::min(wall, skin); wanted > per_radius.front()) {
+  on_skin_ = skin < wall_ && width / skin > per_radius.front();
+  if (const double wanted = width / std::min(wall_, skin); wanted > per_radius.front()) {
     finer_ = std::min(on_skin_ ? finest_on_skin : finest, wanted / per_radius.front());
     count = std::max<std::size_t>(count, 2);
   }
@@ -165,7 +164,7 @@ solid::FingerOrder SolidPress::order(double elements) const {
     order.share = std::clamp(1.0 - scene::finger_share_on_body(*scene_), least, 1.0 - least);
   }
   order.deepest = deepest_;
-  order.in_steps = in_steps_;
+  order.wall = wall_;
   order.touch = {given.first_touch, given.touched};
   order.beside = [this, &finger](const Vec3& place) -> std::optional<solid::Touch> {
     const auto found = scene::touch_beside(this->body(), finger, place);

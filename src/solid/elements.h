@@ -68,7 +68,7 @@ using Vector = Eigen::VectorXd;
 //                                                                      docs/theory.md [solid]
 class Elements {
  public:
-  static constexpr double own_share = 4.0;
+  static constexpr double own_share = 5.0;
 
   // `tissues` has one entry per region of the mesh. Degrees of freedom with `held` != 0 do not
   // move. The mesh must outlive this.

@@ -112,7 +112,7 @@ void FingerPress::make() {
   ball_ = {};
   knots_.clear();
   has_knots_ = false;
-  begin(order_.in_steps);
+  begin(may_buckle());
 }
 
 FingerPress::Mismatch FingerPress::mismatch(double travel) {
@@ -356,7 +356,8 @@ bool FingerPress::reach(double travel) {
       tissue_.points.push_back(
           {at - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
   };
-  constexpr double steps = 16.0;
+  // Longer steps end at other equilibria of the wall.
+  const double steps = std::max(16.0, std::ceil(4.0 * order_.deepest / order_.wall));
   const double deepest = order_.share * order_.deepest;
   while (tissue_.end == End::open && tissue_.reached < std::max(deepest, travel)) {
     double next = tissue_.reached > 0.0 ? 2.0 * tissue_.reached : 0.25 * deepest;

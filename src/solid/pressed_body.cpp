@@ -32,8 +32,7 @@ Sizes sizes_for(const BodyOrder& order, const Box& extent) {
   const double size = a / order.per_radius;
   const double height = extent.high.z() - extent.low.z();
   // Finer from mesh to mesh far away as well, or what bends there would seem to have converged.
-  constexpr double most = 4.4;  // finer ones are for a wall under the finger alone
-  sizes.across = 1.1 * std::min(order.per_radius, most);
+  sizes.across = 1.1 * order.per_radius;
   sizes.largest = std::max(size, std::min(height / *sizes.across, 40.0 * size));
   sizes.calm = 2.5 * height;  // a thin body is at rest beyond
   double highest = -HUGE_VAL;
