@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <Eigen/LU>
+#include <cmath>
 #include <limits>
 
+#include "geometry/shapes.h"
 #include "test_surfaces.h"
 
 namespace palpate {
@@ -119,6 +122,46 @@ TEST(BoxTree, OfSeveralNearestTheLowestNumber) {
     EXPECT_EQ(nearest.triangle, neighbours.triangles_at(static_cast<int>(v)).front());
     EXPECT_EQ(nearest.weights.maxCoeff(), 1.0);
   }
+}
+
+// Every triangle by the solution of point + x direction = a + y (b - a) + z (c - a).
+TEST(BoxTree, FindsTheFirstTriangleAlongAWay) {
+  int met = 0;
+  int passed = 0;
+  for (const Surface& surface :
+       {test::torus(0.4, 3.0, {.seed = 3}).surface, test::saddle(0.2).surface}) {
+    const BoxTree tree(surface);
+    Dice dice(7);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 point = point_in_cube(dice, 3.0);
+      const Vec3 direction = point_in_cube(dice, 1.0).normalized();
+      const double least = dice.roll();
+      double first = std::numeric_limits<double>::infinity();
+      for (const auto& [a, b, c] : surface.triangles) {
+        const Vec3& from = surface.vertices[static_cast<std::size_t>(a)];
+        Eigen::Matrix3d sides;
+        sides << -direction, surface.vertices[static_cast<std::size_t>(b)] - from,
+            surface.vertices[static_cast<std::size_t>(c)] - from;
+        const Vec3 x = sides.partialPivLu().solve(point - from);
+        if (x[1] >= 0.0 && x[2] >= 0.0 && x[1] + x[2] <= 1.0 && x[0] > least)
+          first = std::min(first, x[0]);
+      }
+      const double found = tree.first_along(point, direction, least);
+      if (std::isinf(first)) {
+        EXPECT_EQ(found, first);
+        ++passed;
+      } else {
+        EXPECT_NEAR(found, first, 1e-10);
+        ++met;
+      }
+    }
+  }
+  EXPECT_GT(met, 30);
+  EXPECT_GT(passed, 30);
+  // Straight from a face of a box to the other, along an axis.
+  const Surface box =
+      geometry::sampled(geometry::Cuboid{{2.0, 3.0, 4.0}}, {5.0, 5.0}).parts[0].surface;
+  EXPECT_DOUBLE_EQ(BoxTree(box).first_along({0.5, 0.7, 4.0}, -Vec3::UnitZ(), 1e-6), 4.0);
 }
 
 TEST(BoxTree, ServesOneTriangle) {

@@ -153,6 +153,16 @@ TEST(SolidMesher, LaterRegionsReplaceEarlierOnes) {
   EXPECT_NEAR(found[0] + found[1] + found[2], all, 1e-9 * all);
 }
 
+TEST(SolidMesher, WallsHaveElementsByTheirThickness) {
+  const Sizes sizes{{{Vec3::Zero(), 2e-3, 1e-3}}, 8e-3, 100e-3, 2.0};
+  EXPECT_DOUBLE_EQ(sizes.at({4e-3, 0.0, 0.0}, 10e-3), 1e-3 + 0.35 * 2e-3);    // by the contact
+  EXPECT_DOUBLE_EQ(sizes.at({20e-3, 0.0, 0.0}, 10e-3), 5e-3);                 // two across
+  EXPECT_DOUBLE_EQ(sizes.at({30e-3, 0.0, 0.0}, 10e-3), 5e-3 + 0.1 * 5e-3);    // far away
+  EXPECT_DOUBLE_EQ(sizes.at({20e-3, 0.0, 0.0}, 20e-3), 1e-3 + 0.35 * 18e-3);  // thick
+  EXPECT_DOUBLE_EQ(sizes.at({1e-3, 0.0, 0.0}, 0.5e-3), 1e-3);                 // no less than there
+  EXPECT_DOUBLE_EQ(sizes.at({60e-3, 0.0, 0.0}, HUGE_VAL), 8e-3);
+}
+
 TEST(SolidMesher, MirrorsCutExactlyAndSizesAreKept) {
   MeshOrder order = box();
   order.mirrors = {{0, 0.020}, {1, 0.018}};
