@@ -75,11 +75,6 @@ void refuse_slides_at_a_force(const scenario::Family& family, const Scenario& sc
                 "the reference slides at a depth; write `keep = \"displacement\"`");
 }
 
-// Whether spheres share the force of one, which the reference presses in their place.
-bool stand_for_one(const scenario::PlainFinger& finger) {
-  return finger.spheres > 1 && finger.calibration == finger::Calibration::force;
-}
-
 // What inertia adds to the force, with its error, at the moments of the rows; nothing where coupled
 // springs cannot be refined, or end elsewhere than the reference.
 std::optional<History> added_by_inertia(const Asked& asked, std::size_t of_case, bool flows,
@@ -94,7 +89,6 @@ std::optional<History> added_by_inertia(const Asked& asked, std::size_t of_case,
                                       std::string("solver.integrator=") + integrator,
                                       "output.interval=" + number_text(1e3 * interval) + " ms",
                                       mesh_setting(scenario, factor)};
-    if (stand_for_one(scenario.finger)) settings.emplace_back("finger.spheres=1");
     return run_with(asked, of_case, settings).moments;
   };
   const auto on = [&](double factor) {
@@ -275,7 +269,6 @@ class Refinement {
 // The scene of a press at rest by `solid`, which says as much as `tolerance` asks for.
 scene::Scene solid_scene(scenario::Case one, const scenario::Family& family, double tolerance) {
   Scenario& scenario = one.scenario;
-  if (stand_for_one(scenario.finger)) scenario.finger.spheres = 1;
   if (!scenario::viscous_contact(scenario))
     scenario.contact.viscosity = scenario::Contact::Viscosity::none;
   scenario.contact.depth.reset();
@@ -383,7 +376,8 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   if (moves) return in_motion(one, family, choice);
   refuse_slides_at_a_force(family, scenario);
   set_doing({"the solid on three meshes"});
-  const record::CaseRecord record = run::run_case(solid_scene(one, family, tolerance_of_solid));
+  const scene::Scene scene = solid_scene(one, family, tolerance_of_solid);
+  const record::CaseRecord record = run::run_case(scene);
   Reference reference;
   if (record.outcome != record::Outcome::completed) {
     reference.diverged = record.reason;
@@ -405,7 +399,7 @@ Reference refer(const Asked& asked, std::size_t of_case, const MostRows& most) {
   else
     reference.how += ", without inertia, whose estimated effect is " + percent_text(inertia);
   reference.warnings.push_back("`solid` on three meshes, extrapolated; " + reference.how);
-  if (stand_for_one(scenario.finger))
+  if (scene.scenario.finger.replaced > 0)
     reference.warnings.emplace_back(
         "spheres by `calibration = \"force\"` stand for one, which is pressed");
   warn_of_error(reference);

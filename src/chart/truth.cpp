@@ -92,11 +92,11 @@ class Finder {
     const scene::Estimates& found = choice_.expected;
     if (std::holds_alternative<scenario::HalfSpace>(scenario_.tissue.shape))
       return half_space(found);
-    const double neglected = std::abs(found.sides) + found.size_error + found.inertia;
+    const double neglected = std::abs(found.sides) + found.size_error + found.inertia + found.ball;
     if (!scene::beyond(Model::layer, scenario_, choice_.touch) && found.measured &&
         neglected <= refined_error &&
         (found.depth_ratio ? std::abs(found.deep) : found.deep_error) <= refined_error)
-      return layer(found);
+      return layer(found, neglected);
     const bool ready = std::holds_alternative<scenario::MeshFile>(scenario_.tissue.mesh);
     return ready && found.inertia >= scenario_.solver.tolerance ? on_the_mesh() : refined(found);
   }
@@ -127,17 +127,20 @@ class Finder {
   }
 
   Truth half_space(const scene::Estimates& found) const {
-    return vouched("closed form", "Hertz" + depth_text(found), {model_setting(Model::hertz)},
-                   found.inertia);
+    return vouched("closed form",
+                   "Hertz" + depth_text(found) + "; the estimated effect of the finger's size is " +
+                       percent_text(found.ball) + ", that of inertia " +
+                       percent_text(found.inertia),
+                   {model_setting(Model::hertz)}, found.ball + found.inertia);
   }
 
-  Truth layer(const scene::Estimates& found) const {
-    return vouched(
-        "closed form",
-        "an infinite flat layer" + depth_text(found) + "; the estimated effect of the sides is " +
-            percent_text(std::abs(found.sides)) + ", that of inertia " +
-            percent_text(found.inertia),
-        {model_setting(Model::layer)}, std::abs(found.sides) + found.size_error + found.inertia);
+  Truth layer(const scene::Estimates& found, double neglected) const {
+    return vouched("closed form",
+                   "an infinite flat layer" + depth_text(found) +
+                       "; the estimated effect of the sides is " +
+                       percent_text(std::abs(found.sides)) + ", that of inertia " +
+                       percent_text(found.inertia),
+                   {model_setting(Model::layer)}, neglected);
   }
 
   // The estimated error of the strongest model, relative.

@@ -343,10 +343,13 @@ class Explanation {
   }
 
   void finger() {
-    const scenario::PlainFinger& asked = scene_.scenario.finger;
+    const scenario::Resolved::Finger& asked = scene_.scenario.finger;
     const scene::Finger& finger = scene_.finger;
     if (asked.spheres == 1) {
-      line("  finger       one sphere of radius " + quantity_text(asked.radius, unit::mm));
+      line("  finger       one sphere of radius " + quantity_text(asked.radius, unit::mm) +
+           (asked.replaced == 0 ? ""
+                                : ", in place of " + std::to_string(asked.replaced) +
+                                      " spheres that press a flat like it"));
     } else {
       line("  finger       " + std::to_string(asked.spheres) + " spheres of radius " +
            rounded_text(unit::mm.from_si(finger.sphere_radius)) + " mm for one of " +

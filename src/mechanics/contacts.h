@@ -158,6 +158,8 @@ struct Touch {
 
 // Whether the spheres of the finger represent one sphere, with `calibration = "force"`.
 [[nodiscard]] bool presses_as_one(const scene::Scene& scene);
+// Gives each of several spheres that stand for one its share of a layer's law.
+void share_layer(const scene::Scene& scene, contact::ContactLaw& law);
 
 // Friction of all contacts after the finger has moved by `move` (m). The stretch grows by the
 // tangential part of `move`, and Cattaneo and Mindlin's partial slip gives the drag, at most mu F;

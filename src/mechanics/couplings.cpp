@@ -361,7 +361,7 @@ std::optional<std::string> Consistent::find(const Vec3& finger, Touch& touch) {
         SurfaceContacts::guess_depth(now.contacts);
         return outer_surface->settle(
             now, [&](auto&, Eigen::MatrixXd& compliance) -> auto& {
-              find_surface_displacement(now.contacts, compliance);
+              find_surface_displacement(now, compliance);
               return compliance;
             });
       },
@@ -375,51 +375,35 @@ std::optional<std::string> Consistent::step(const StepTo& to) {
   return part->move(to.touch);
 }
 
-// The surface displacement under the single sphere that a group of spheres with
-// `calibration = "force"` replaces: the mean over the group's contacts, weighted by their effective
-// depths, each with the patch of that sphere, which `joint` receives.
-BodySurfaceDisplacement::Value Consistent::joint_surface_displacement(
-    const KeptList<SphereContact>& contacts, contact::Patch& joint) {
-  double approaches = 0.0;
-  for (const SphereContact& contact : contacts) {
-    approaches += std::max(0.0, contact.approach);
-    if (contact.patch.radius() > joint.radius()) joint = contact.patch;
-  }
+// The patch of the single sphere that a group of spheres with `calibration = "force"` replaces:
+// below the group's middle, or where its deepest contact is.
+contact::Patch Consistent::joint_patch(const Touch& touch) {
+  const SphereContact& deepest = *touch.deepest();
+  contact::Patch joint = outer_surface->below_middle(touch.finger).value_or(deepest.patch);
   // a^2 = R h, and R is n^(1/3) times a sphere's radius.
   const double wider = std::pow(static_cast<double>(part->scene->finger.centres.size()), 1.0 / 6.0);
-  joint.a *= wider;
-  joint.b *= wider;
-  BodySurfaceDisplacement::Value sum;
-  if (!(approaches > 0.0)) return sum;
-  for (const SphereContact& contact : contacts) {
-    if (contact.approach <= 0.0) continue;
-    contact::Patch here = contact.patch;
-    here.a = joint.a;
-    here.b = joint.b;
-    const BodySurfaceDisplacement::Value own = beyond_->at(here);
-    const double weight = contact.approach / approaches;
-    sum.surface_displacement += weight * own.surface_displacement;
-    sum.slope += weight * own.slope;
-    sum.error += weight * own.error;
-    sum.doubt += weight * own.doubt;
-  }
-  return sum;
+  joint.a = wider * deepest.patch.a;
+  joint.b = wider * deepest.patch.b;
+  return joint;
 }
 
 // The contact radius a is the one that stores the most energy, docs/theory.md [energy]:
 //   F = F_Hertz(a) / (1 - (5/3) E* a^2 s'(a)),   travel = a^2 / R + (s + a s') F.
 // Both take the form of the contact equations: the law times a factor, and a compliance.
-void Consistent::find_surface_displacement(KeptList<SphereContact>& contacts,
-                                           Eigen::MatrixXd& compliance) {
+void Consistent::find_surface_displacement(Touch& touch, Eigen::MatrixXd& compliance) {
+  KeptList<SphereContact>& contacts = touch.contacts;
   constexpr double most_stiffening = 0.8;
   const auto count = static_cast<Eigen::Index>(contacts.size());
-  const bool as_one = presses_as_one(*part->scene);
+  const bool as_one = presses_as_one(*part->scene) && count > 0;
   const auto& tissue = part->scene->scenario.tissue;
   const double plane_modulus =
       tissue.young_modulus / (1.0 - tissue.poisson_ratio * tissue.poisson_ratio);
   contact::Patch joint;
   BodySurfaceDisplacement::Value of_all;
-  if (as_one) of_all = joint_surface_displacement(contacts, joint);
+  if (as_one) {
+    joint = joint_patch(touch);
+    of_all = beyond_->at(joint);
+  }
   for (Eigen::Index i = 0; i < count; ++i) {
     SphereContact& own = contacts[as_index(i)];
     const BodySurfaceDisplacement::Value value = as_one ? of_all : beyond_->at(own.patch);
@@ -430,9 +414,11 @@ void Consistent::find_surface_displacement(KeptList<SphereContact>& contacts,
                                   : 0.75 * own.law.point.coefficient / radius_per_root(own.law);
     const double stiffening =
         std::min(most_stiffening, 5.0 / 3.0 * modulus * radius * radius * value.slope);
-    // The mesh is linear: it sinks by the force without the factor of a deep press.
-    own.surface_displacement_error = value.error / own.deep;
-    own.surface_displacement_doubt = value.doubt / own.deep;
+    // The mesh is linear: it sinks by the force without the factor of a deep press, and by that of
+    // all spheres that stand for one.
+    const double forces = (as_one ? static_cast<double>(count) : 1.0) / own.deep;
+    own.surface_displacement_error = forces * value.error;
+    own.surface_displacement_doubt = forces * value.doubt;
     double surface_displacement = value.surface_displacement / own.deep;
     if (own.law.point.layer == nullptr) {
       own.law.point.part /= 1.0 - stiffening;
@@ -537,7 +523,7 @@ std::optional<std::string> ConsistentWithInertia::find(const Motion& motion, con
         for (SphereContact& contact : now.contacts) outer_surface->spread_wide(contact);
         const auto complete = [&](std::vector<double>& approaches,
                                   Eigen::MatrixXd& compliance) -> const Eigen::MatrixXd& {
-          statics.find_surface_displacement(now.contacts, compliance);
+          statics.find_surface_displacement(now, compliance);
           return inertia_.complete(motion, now.contacts, compliance, approaches);
         };
         do {

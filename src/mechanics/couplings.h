@@ -142,7 +142,7 @@ class Consistent : public OnMesh {
   void make_ready();
 
   // Fills `compliance` (m/N) and the contacts' factors and errors of [energy].
-  void find_surface_displacement(KeptList<SphereContact>& contacts, Eigen::MatrixXd& compliance);
+  void find_surface_displacement(Touch& touch, Eigen::MatrixXd& compliance);
   [[nodiscard]] BodySurfaceDisplacement* body() { return &*beyond_; }
   // The error of the surface displacement under a contact per tetrahedron of the part, m/N.
   [[nodiscard]] std::vector<double> errors(const SphereContact& contact);
@@ -153,8 +153,7 @@ class Consistent : public OnMesh {
   [[nodiscard]] integrate::Vector displacement();
 
  private:
-  [[nodiscard]] BodySurfaceDisplacement::Value joint_surface_displacement(
-      const KeptList<SphereContact>& contacts, contact::Patch& joint);
+  [[nodiscard]] contact::Patch joint_patch(const Touch& touch);
 
   std::optional<BodySurfaceDisplacement> beyond_;  // of the present part
   integrate::Vector finer_;                        // N

@@ -23,6 +23,7 @@ std::optional<std::string> press_half_space(const scene::Scene& scene, const Vec
     return "the layer is too thin for this depth: its law is known up to " +
            rounded_text(unit::mm.from_si(law->point.last_depth()), 3) +
            " mm; press less deep, or set `solver.model = \"coupled_springs\"`";
+  share_layer(scene, *law);
   if (scene.depth_ratio) law->point.part = scene.depth_ratio->value(depth);
   const Vec3 before = touch.finger;
   touch.finger = top + (radius - touch.travel) * Vec3::UnitZ();

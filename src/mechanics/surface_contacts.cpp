@@ -164,6 +164,19 @@ KeptList<SphereContact>& SurfaceContacts::detect(const Vec3& finger,
   return found_;
 }
 
+std::optional<contact::Patch> SurfaceContacts::below_middle(const Vec3& finger) {
+  const double reach = scene_->finger.sphere_radius + scene_->finger.whole.radius;
+  detector_.find(finger, reach, moved_, feet_);
+  const auto nearest = std::min_element(
+      feet_.begin(), feet_.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
+  if (nearest == feet_.end()) return std::nullopt;
+  return contact::Patch{.at = nearest->at,
+                        .position = nearest->position,
+                        .normal = nearest->normal,
+                        .beyond = nearest->beyond,
+                        .turned = nearest->turned};
+}
+
 std::optional<std::string> SurfaceContacts::give_law(SphereContact& contact) {
   geometry::Curvature here;
   if (auto wrong = curvature_.find(contact.patch.at, contact.one_sided, here)) return wrong;
@@ -180,12 +193,7 @@ std::optional<std::string> SurfaceContacts::give_law(SphereContact& contact) {
   if (!law) return hollow_text(here.kappa_2);
   contact.law = *law;
   if (scene_->depth_ratio) contact.deep = scene_->depth_ratio->value(contact.approach);
-  if (contact.law.point.layer != nullptr && presses_as_one(*scene_)) {
-    // The law of one equivalent sphere of radius R = n^(1/3) times that of each; a^2 = R h.
-    const auto count = static_cast<double>(scene_->finger.centres.size());
-    contact.law.point.share = 1.0 / count;
-    contact.law.radius_share = std::pow(count, -1.0 / 6.0);
-  }
+  share_layer(*scene_, contact.law);
   // The curvature's axis, projected into the patch's tangent plane.
   Vec3 axis = law->axis - law->axis.dot(contact.patch.normal) * contact.patch.normal;
   contact.patch.axis =

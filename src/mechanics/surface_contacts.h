@@ -60,6 +60,10 @@ class SurfaceContacts {
   KeptList<SphereContact>& detect(const Vec3& finger, const integrate::Vector* displacement,
                                   double beyond = 0.0);
 
+  // The place of the surface nearest to the middle of several spheres, with no radius of its own;
+  // nothing where there is none below it.
+  [[nodiscard]] std::optional<contact::Patch> below_middle(const Vec3& finger);
+
   // Finds the contacts at the detected places and their forces. On entry `touch` contains the
   // contacts of the previous step, for first guesses and the stretch of the friction. solve(touch)
   // calls settle(); `beyond` is that of rub(). Returns a sentence if the equations have no solution

@@ -41,6 +41,14 @@ bool presses_as_one(const scene::Scene& scene) {
          scene.scenario.finger.calibration == finger::Calibration::force;
 }
 
+void share_layer(const scene::Scene& scene, contact::ContactLaw& law) {
+  if (law.point.layer == nullptr || !presses_as_one(scene)) return;
+  // The law of one sphere of radius R = n^(1/3) times that of each; a^2 = R h.
+  const auto count = static_cast<double>(scene.finger.centres.size());
+  law.point.share = 1.0 / count;
+  law.radius_share = std::pow(count, -1.0 / 6.0);
+}
+
 void NodalContact::renew() {
   push.clear();
   peak_pressure = 0.0;

@@ -1,6 +1,8 @@
 // Resolves a scenario and its materials into plain values.
 #include "scenario/resolved.h"
 
+#include <utility>
+
 #include "base/text.h"
 #include "base/units.h"
 
@@ -158,6 +160,11 @@ Resolved resolve(const Case& one, Model model, const Found& found) {
   }
   if (all.finger.young_modulus && all.finger.poisson_ratio && !all.finger.rigid())
     resolved.finger.elastic = {*all.finger.young_modulus, *all.finger.poisson_ratio};
+  // A lower modulus of their contacts lets several spheres stand for one. Bodies in a mesh have no
+  // such modulus, and the one presses.
+  if (traits(model).solid && all.finger.spheres > 1 &&
+      all.finger.calibration == finger::Calibration::force)
+    resolved.finger.replaced = std::exchange(resolved.finger.spheres, 1);
   return resolved;
 }
 

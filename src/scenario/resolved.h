@@ -33,6 +33,7 @@ struct Resolved : PlainScenario {
     std::optional<contact::Elastic> elastic;  // none if rigid, and in a uniform test
     double beside = 0.0;                      // m, of `at` from the surface
     std::optional<double> height = {};        // m, of the surface at `at`, in the scene
+    int replaced = 0;                         // spheres for which the one stands
     bool moved = false;                       // to the top of a body that has nothing at its middle
   };
   struct Contact : PlainContact {

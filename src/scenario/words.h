@@ -22,7 +22,9 @@ inline constexpr auto weights =
                               {"apart", "the friction limit counts the weight as well, eq. (4)"}});
 inline constexpr auto calibrations = words_of<finger::Calibration>(
     {{"mass", "eq. (5) alone: together they press `spheres`^(5/6) times as hard"},
-     {"force", "on a flat they exert the force of the single sphere of `radius`"}});
+     {"force",
+      "on a flat they exert the force of the single sphere of `radius`, which `solid` presses in "
+      "their place"}});
 inline constexpr auto regressions = words_of<Output::Regression>(
     {{"none", "the computed curves alone"},
      {"logarithmic", "`F = a + b ln h`, the paper's Fig. 6"},

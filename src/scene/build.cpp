@@ -348,11 +348,6 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family, SpecimenS
     if (!touch.beside.empty()) throw KeyError(touch.beside, *reason);
     throw MeshError(*reason);
   }
-  if (scenario::traits(scenario.solver.model).solid && scenario.finger.spheres > 1 &&
-      scenario.finger.calibration == finger::Calibration::force)
-    throw InputError(place_of(family.document, "finger.spheres"),
-                     "`solid` presses with every sphere, but " + *reason +
-                         "; write `calibration = \"mass\"`, or `spheres = 1`");
   const scenario::ModelTraits* remedy = &scenario::strongest;
   for (const scenario::ModelTraits& other : scenario::model_table)
     if (!other.solid && !beyond(other.of, scenario, touch)) remedy = &other;

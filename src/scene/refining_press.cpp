@@ -44,6 +44,7 @@ Scenario refining_press(const Scenario& scenario) {
   press.tissue.viscosity = tissue::Viscosity::none;
   press.tissue.law = {};
   press.finger.elastic.reset();
+  if (press.finger.calibration == finger::Calibration::force) press.finger.spheres = 1;
   press.contact.viscosity = scenario::Contact::Viscosity::none;
   press.contact.depth = scenario::Contact::Depth::hertz;
   press.contact.friction = 0.0;
@@ -72,7 +73,6 @@ std::string refining_key(const Scenario& scenario) {
   add(press.finger.radius);
   add(press.finger.spheres);
   add(press.finger.density);
-  add(press.finger.calibration == finger::Calibration::force ? 1.0 : 0.0);
   add(press.finger.x.value_or(-1.0));
   add(press.finger.y.value_or(-1.0));
   add(press.solver.tolerance);

@@ -353,15 +353,13 @@ std::optional<std::string> beyond(scenario::Model model, const scenario::Resolve
     case scenario::Model::layer:
       if (!std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape))
         return "a layer is a `cuboid` pressed on its flat top";
-      if (scenario.finger.spheres > 1) return "several spheres share one layer";
+      if (scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::mass)
+        return "several spheres share one layer";
       if (!all_slabs(scenario) && several_tissues(scenario)) return has_regions;
       return beyond_half_space(scenario, touch);
-    case scenario::Model::solid:
-      if (scenario.finger.spheres > 1 && scenario.finger.calibration == finger::Calibration::force)
-        return "several spheres with `finger.calibration = \"force\"` stand for one";
-      [[fallthrough]];
     case scenario::Model::mass_spring:
     case scenario::Model::coupled_springs:
+    case scenario::Model::solid:
       if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
         return "a `half_space` is infinite and cannot be meshed";
   }

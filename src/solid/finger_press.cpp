@@ -394,16 +394,17 @@ bool FingerPress::is_power_law() const {
 }
 
 std::optional<std::pair<double, double>> FingerPress::snap() const {
-  std::optional<std::pair<double, double>> range;
-  for (std::size_t i = 1; i < tissue_.points.size(); ++i) {
-    const Point& one = tissue_.points[i - 1];
-    const Point& next = tissue_.points[i];
-    const bool falls = next.force < one.force;
-    if (range && !falls) break;
-    if (falls && !range) range.emplace(one.travel, next.travel);
-    if (falls) range->second = next.travel;
+  // Coarse elements have falls of up to a tenth that fine ones have not: counted on a cap.
+  constexpr double least = 0.2;
+  const std::vector<Point>& points = tissue_.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::size_t end = i;
+    while (end + 1 < points.size() && points[end + 1].force < points[end].force) ++end;
+    if (points[end].force < (1.0 - least) * points[i].force)
+      return std::pair(points[i].travel, points[end].travel);
+    i = end;
   }
-  return range;
+  return std::nullopt;
 }
 
 // On a half-space of the tissue at the surface, with its share of the curvatures of the gap; of a

@@ -83,8 +83,8 @@ class FingerPress {
   [[nodiscard]] double share() const { return order_.share; }
   // Whether a wall gives way, as far as the curve has been found, so that it is found in steps.
   [[nodiscard]] bool buckles() const { return in_steps_ && !(may_buckle() && is_power_law()); }
-  // The displacements (m) between which the force falls first, as far as the curve has been found:
-  // the wall snaps through.
+  // The displacements (m) between which the force first falls by a fifth or more, as far as the
+  // curve has been found: the wall snaps through.
   [[nodiscard]] std::optional<std::pair<double, double>> snap() const;
 
   // The surface that may be met at a place beside the first touch, displaced, with all copies that

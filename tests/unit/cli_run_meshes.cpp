@@ -337,20 +337,26 @@ TEST_F(RunMeshes, a_body_that_is_not_held_below_the_press_is_said_to_bend) {
   EXPECT_TRUE(bends("kind = \"bone_shaft\""));                     // it lies on its ends
 }
 
-// Their modulus is lowered so that a contact law gives the force of one: eight bodies press harder.
-TEST_F(RunMeshes, a_solid_refuses_spheres_that_stand_for_one) {
-  const std::string spheres =
-      "[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n[output]\nfigures = false\n"
-      "[finger]\nspheres = 8\n";
-  expect_refused(spheres + "[solver]\nmodel = \"solid\"\n", 2,
-                 "press.toml:7:11: `solid` presses with every sphere, but "
-                 "several spheres with `finger.calibration = \"force\"` stand for one; write "
-                 "`calibration = \"mass\"`, or `spheres = 1`");
-  // Near an edge too, where `auto` would take `solid`.
-  const Ended ended = run(spheres + "x = \"2 mm\"\n");
-  EXPECT_EQ(ended.code, 0) << ended.err;
-  EXPECT_NE((ended.out + ended.err).find("coupled_springs"), std::string::npos)
-      << ended.out << ended.err;
+// Spheres that stand for one press a flat layer as it does, by every model, and state the same
+// error.
+TEST_F(RunMeshes, spheres_that_stand_for_one_have_its_force_on_a_layer) {
+  const auto forces = [&](const std::string& model, int spheres) {
+    const Ended ended =
+        run("[tissue]\nmaterial = \"skin\"\nshape = { size = [\"60 mm\", \"60 mm\", \"12 mm\"] }\n"
+            "viscosity = \"none\"\n[finger]\nradius = \"8 mm\"\nspheres = " +
+            std::to_string(spheres) +
+            "\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n" + model);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    const auto at = ended.out.find("Peak force: ");
+    return ended.out.substr(at, ended.out.find('(', at) - at);
+  };
+  for (const char* model : {"layer", "coupled_springs", "solid"}) {
+    const std::string named = "[solver]\nmodel = \"" + std::string(model) + "\"\n";
+    const std::string one = forces(named, 1);
+    EXPECT_NE(one.find(" N, with an error of about "), std::string::npos) << one;
+    EXPECT_EQ(forces(named, 3), one) << model;
+    EXPECT_EQ(forces(named, 16), one) << model;
+  }
 }
 
 TEST_F(RunMeshes, auto_is_hertz_on_a_half_space) {

@@ -200,6 +200,70 @@ FingerOrder on_cap(const geometry::SmoothSurface& shell, double radius, double d
   return order;
 }
 
+// A strip of an arch of 60 degrees, 1 mm thick, 10 mm wide and 40 mm in radius, on its ends.
+geometry::Surface strip() {
+  constexpr double half = 30.0 * std::numbers::pi / 180.0;
+  constexpr int along = 24;
+  constexpr int across = 6;
+  geometry::Surface made;
+  for (const double radius : {40.5e-3, 39.5e-3})
+    for (int i = 0; i <= along; ++i)
+      for (int k = 0; k <= across; ++k) {
+        const double angle = half * (2.0 * i / along - 1.0);
+        made.vertices.emplace_back(radius * std::sin(angle), 10e-3 * (1.0 * k / across - 0.5),
+                                   radius * std::cos(angle));
+      }
+  const auto at = [](int side, int i, int k) {
+    return (side * (along + 1) + i) * (across + 1) + k;
+  };
+  const auto face = [&](int a, int b, int c, int d) {
+    made.triangles.push_back({a, b, c});
+    made.triangles.push_back({a, c, d});
+  };
+  for (int i = 0; i < along; ++i)
+    for (int k = 0; k < across; ++k) {
+      face(at(0, i, k), at(0, i + 1, k), at(0, i + 1, k + 1), at(0, i, k + 1));
+      face(at(1, i, k), at(1, i, k + 1), at(1, i + 1, k + 1), at(1, i + 1, k));
+    }
+  for (int i = 0; i < along; ++i) {
+    face(at(0, i, 0), at(1, i, 0), at(1, i + 1, 0), at(0, i + 1, 0));
+    face(at(0, i, across), at(0, i + 1, across), at(1, i + 1, across), at(1, i, across));
+  }
+  for (int k = 0; k < across; ++k) {
+    face(at(0, 0, k), at(0, 0, k + 1), at(1, 0, k + 1), at(1, 0, k));
+    face(at(0, along, k), at(1, along, k), at(1, along, k + 1), at(0, along, k + 1));
+  }
+  return made;
+}
+
+// Its rise is five times its thickness: it snaps through to the other side.
+TEST(FingerPress, AnArchSnapsThrough) {
+  const geometry::SmoothSurface shell(strip());
+  FingerOrder order;
+  order.body.surface = &shell;
+  order.body.tissues = {{10e3, 0.4}};
+  order.body.mirrored = {true, true};
+  order.body.base_level = 40.5e-3 * std::cos(std::numbers::pi / 6.0);
+  order.body.per_radius = 4.0;
+  order.radius = 12e-3;
+  order.deepest = 9e-3;
+  order.wall = 1e-3;
+  touch(order, shell.surface().vertices[as_index(12 * 7 + 3)]);
+  FingerPress arch(order);
+  const auto force = [&](double travel) {
+    const auto found = arch.at_travel(travel);
+    EXPECT_TRUE(found) << arch.reason();
+    return found ? found->force : 0.0;
+  };
+  EXPECT_GT(force(9e-3), force(1.75e-3));
+  ASSERT_TRUE(arch.snap());
+  const auto [from, to] = *arch.snap();
+  for (const double away : {-0.6e-3, 0.6e-3}) {  // more than a step
+    EXPECT_GT(force(from), force(from + away));
+    EXPECT_LT(force(to), force(to + away));
+  }
+}
+
 // Between a quarter and half of a travel the cap buckles: no parabola through them and the deepest
 // point knows the force before (that was 1.7 times too high at 0.7 mm), and steps as long as the
 // cap is thick end at other equilibria (1.9 times). Both presses have elements of 1.5 mm.
@@ -218,8 +282,9 @@ TEST(FingerPress, AWallThatBucklesIsPressedInSteps) {
     EXPECT_NEAR(other->force, force, 0.2 * force) << travel;
   }
   EXPECT_TRUE(deep.buckles());
-  ASSERT_TRUE(deep.snap());
-  EXPECT_LT(deep.snap()->second, 6e-3);
+  // The force of CalculiX rises up to there; these meshes have falls of up to a tenth.
+  EXPECT_FALSE(deep.snap());
+  EXPECT_FALSE(less.snap());
   FingerPress block(plain());
   ASSERT_TRUE(block.at_travel(0.83e-3));
   EXPECT_FALSE(block.buckles());
