@@ -32,18 +32,23 @@ TEST(ChartReference, AHalfSpaceHasHertz) {
   EXPECT_EQ(found.kind, "closed form");
   const scenario::Case one =
       scenario::read_case(scenario::press + "[tissue]\nshape = { kind = \"half_space\" }\n");
-  const scene::Finger finger = scene::make_finger(run::choose(one).chosen);
+  const scene::Choice choice = run::choose(one);
+  const scene::Finger finger = scene::make_finger(choice.chosen);
   const double force = contact::hertz::force(0.002, finger.whole.radius, finger.whole.modulus);
   EXPECT_NEAR(found.moments.back().value, force, 1e-12 * force);  // rounding of the travel
+  EXPECT_GT(choice.expected.ball, 0.0);
+  EXPECT_DOUBLE_EQ(found.moments.back().error / found.moments.back().value,
+                   choice.expected.ball + choice.expected.inertia);
   EXPECT_NE(found.sentence.find("finite strain, which would change it"), std::string::npos);
 }
 
 TEST(ChartReference, AWideFlatHasTheLayer) {
-  // At 2 mm large strains would change more than the reference states.
+  // At 2 mm large strains would change more than the reference states, and so would a finger's
+  // size.
   const std::string text =
       "[[step]]\nkind = \"indent\"\nto = \"0.05 mm\"\nrate = \"0.1 mm/s\"\n[tissue]\nshape = { "
       "kind = \"cuboid\", size = "
-      "[\"200 mm\", \"200 mm\", \"30 mm\"] }\n";
+      "[\"200 mm\", \"200 mm\", \"30 mm\"] }\n[finger]\nmaterial = \"rigid\"\n";
   const Truth found = truth(text);
   EXPECT_EQ(found.kind, "closed form");
   const scene::Estimates estimated = run::choose(scenario::read_case(text)).expected;

@@ -347,8 +347,9 @@ TEST_F(RunMeshes, spheres_that_stand_for_one_have_its_force_on_a_layer) {
             std::to_string(spheres) +
             "\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n" + model);
     EXPECT_EQ(ended.code, 0) << ended.err;
-    const auto at = ended.out.find("Peak force: ");
-    return ended.out.substr(at, ended.out.find('(', at) - at);
+    const std::string said = ended.out + ended.err;
+    const auto at = said.find("Peak force: ");
+    return at == std::string::npos ? said : said.substr(at, said.find('(', at) - at);
   };
   for (const char* model : {"layer", "coupled_springs", "solid"}) {
     const std::string named = "[solver]\nmodel = \"" + std::string(model) + "\"\n";
