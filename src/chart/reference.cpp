@@ -89,6 +89,8 @@ std::optional<History> added_by_inertia(const Asked& asked, std::size_t of_case,
                                       std::string("solver.integrator=") + integrator,
                                       "output.interval=" + number_text(1e3 * interval) + " ms",
                                       mesh_setting(scenario, factor)};
+    if (scenario::resolve(asked.family.cases[of_case], scenario::Model::solid).finger.replaced > 0)
+      settings.emplace_back("finger.spheres=1");
     return run_with(asked, of_case, settings).moments;
   };
   const auto on = [&](double factor) {
