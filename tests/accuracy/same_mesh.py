@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Force and processor time of `solid` and of CalculiX on the same quadratic mesh: a table of docs/accuracy.md.
 
-    tests/accuracy/same_mesh.py PALPATE SEED NUMBER...
+    tests/accuracy/same_mesh.py PALPATE SEED NUMBER... [--finer F]
 
-Scenes of fresh_scenes.py with inclusions or layers, whose mesh `solid` keeps, under rigid fingers. Gmsh meshes the body,
-about three elements to a contact radius; palpate reads that mesh as an Abaqus file and CalculiX as its own input (C3D10,
-NLGEOM, the same law, one thread). Both run one after the other, and neither uses planes of symmetry.
+Scenes of fresh_scenes.py under rigid fingers. Gmsh meshes the body, about three elements to a contact radius, F times as
+many with --finer; palpate reads that mesh as an Abaqus file and CalculiX as its own input (C3D10, NLGEOM, the same law, one
+thread). Both run one after the other, and neither uses planes of symmetry. `solid` keeps meshes of several tissues: in a
+body of one, every seventh element is a millionth stiffer.
 """
+import argparse
 import csv
 import pathlib
 import resource
@@ -57,21 +59,27 @@ def used():
 
 
 def main():
-    program, seed = str(pathlib.Path(sys.argv[1]).resolve()), int(sys.argv[2])
+    parser = argparse.ArgumentParser()
+    parser.add_argument("palpate", type=lambda word: str(pathlib.Path(word).resolve()))
+    parser.add_argument("seed", type=int)
+    parser.add_argument("numbers", type=int, nargs="+")
+    parser.add_argument("--finer", type=float, default=1.0)
+    arguments = parser.parse_args()
     print("| scene | nodes of the mesh | of palpate's | CalculiX, mN | palpate, mN | difference, % | CalculiX, s | palpate, s |")
     print("|---|---|---|---|---|---|---|---|")
-    for number in map(int, sys.argv[3:]):
-        scene = fresh_scenes.draw(seed, number) | {"finger": None, "viscous": None}
-        if not scene["lumps"] and not scene["layer"]:
-            sys.exit(f"scene {number} is of one tissue, whose mesh palpate replaces; take a kind with inclusions or layers")
+    for number in arguments.numbers:
+        scene = fresh_scenes.draw(arguments.seed, number) | {"finger": None, "viscous": None}
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            made = calculix.mesh(scene, 3.0)
+            made = calculix.mesh(scene, 3.0, arguments.finer)
+            if not scene["lumps"] and not scene["layer"]:
+                made["elements"] = [(stiffness if i % 7 else 1.000001 * stiffness, ten)
+                                    for i, (stiffness, ten) in enumerate(made["elements"])]
             mesh, sets = mesh_text(scene, made)
             (folder / "body.inp").write_text(mesh, encoding="utf-8")
             (folder / "scene.toml").write_text(scenario(scene, sets), encoding="utf-8")
             start = used()
-            subprocess.run([program, "run", "scene.toml", "--out", "out", "--quiet"], cwd=folder, check=True)
+            subprocess.run([arguments.palpate, "run", "scene.toml", "--out", "out", "--quiet"], cwd=folder, check=True)
             middle = used()
             other = 1e3 * calculix.pressed(scene, made, folder)[-1]
             end = used()
