@@ -127,6 +127,7 @@ TEST_F(RunRefusals, a_write_that_fails_keeps_the_old_result) {
        }});
   EXPECT_EQ(ended.code, 1);
   EXPECT_TRUE(says(ended, "cannot be written: File too large")) << ended.err;
+  EXPECT_TRUE(says(ended, "; the finished cases are in out/press.partial-")) << ended.err;
   EXPECT_TRUE(old_is_there());
 }
 
