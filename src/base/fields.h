@@ -32,7 +32,12 @@ struct Key {
   const char* name;
   const char* meaning;
   Use use = {};
+  bool of_the_paper = false;  // only comparisons with the paper need it
 };
+[[nodiscard]] inline Key of_the_paper(Key key) {
+  key.of_the_paper = true;
+  return key;
+}
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity();

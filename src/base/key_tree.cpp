@@ -95,7 +95,11 @@ class Collector final : public FieldVisitor {
 
  private:
   KeyTree& add(const Key& key, Kind kind) {
-    KeyTree one{.name = key.name, .meaning = key.meaning, .kind = kind, .alternatives = {}};
+    KeyTree one{.name = key.name,
+                .meaning = key.meaning,
+                .of_the_paper = key.of_the_paper,
+                .kind = kind,
+                .alternatives = {}};
     if (!key.use.when.empty()) one.meaning += " Used only " + key.use.when + ".";
     keys_->push_back(std::move(one));
     return keys_->back();
@@ -201,31 +205,36 @@ std::string values_of(const KeyTree& key) {
   return "";
 }
 
-// A section with a row for every key, then those of the tables in it.
+constexpr const char* table_head =
+    "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+
+// A section with a row for every key, then those of the tables in it; rows of keys for comparisons
+// with the paper are added to `of_the_paper`.
 void add_sections(const std::string& title, const std::string& meaning, const std::string& path,
-                  const std::vector<KeyTree>& keys, std::string& text) {
+                  const std::vector<KeyTree>& keys, std::string& text, std::string& of_the_paper) {
   const auto is_table = [](const KeyTree& key) {
     return key.kind == Kind::table || key.kind == Kind::tables;
   };
   text += "\n## " + title + "\n";
   if (!meaning.empty()) text += "\n" + meaning + "\n";
-  if (!std::all_of(keys.begin(), keys.end(), is_table))
-    text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+  if (!std::all_of(keys.begin(), keys.end(), is_table)) text += table_head;
   for (const KeyTree& key : keys)
     if (!is_table(key))
-      text += "| `" + key.name + "` | " + values_of(key) + " | " +
-              (key.fallback.empty() ? "" : "`" + key.fallback + "`") + " | " + key.meaning + " |\n";
+      (key.of_the_paper ? of_the_paper : text) +=
+          "| `" + (key.of_the_paper ? path + "." : "") + key.name + "` | " + values_of(key) +
+          " | " + (key.fallback.empty() ? "" : "`" + key.fallback + "`") + " | " + key.meaning +
+          " |\n";
   for (const KeyTree& key : keys) {
     if (!is_table(key)) continue;
     const std::string name = path.empty() ? key.name : path + "." + key.name;
     add_sections(key.kind == Kind::table ? "`[" + name + "]`" : "`[[" + name + "]]`", key.meaning,
-                 name, key.keys, text);
+                 name, key.keys, text, of_the_paper);
     for (std::size_t i = 0; i < key.alternatives.size(); ++i) {
       const Word& word = key.alternatives[i].word;
       const bool is_default = as_index(key.chosen) == i && key.alternatives.size() > 1;
       add_sections(
           "`" + name + "`, `kind = \"" + word.word + "\"`" + (is_default ? " (default)" : ""),
-          word.meaning, name, key.alternatives[i].keys, text);
+          word.meaning, name, key.alternatives[i].keys, text, of_the_paper);
     }
   }
 }
@@ -233,9 +242,14 @@ void add_sections(const std::string& title, const std::string& meaning, const st
 }  // namespace
 
 std::string manual_of(const KeyTree& tree) {
-  std::string text;
-  add_sections("Top level", "", "", tree.keys, text);
-  return text;
+  std::string text, of_the_paper;
+  add_sections("Top level", "", "", tree.keys, text, of_the_paper);
+  if (of_the_paper.empty()) return text;
+  return text +
+         "\n## Comparisons with the paper\n\nThese keys choose what the paper does, or what fails. "
+         "Other scenarios do not need them.\n\n<details markdown=\"1\"><summary>The "
+         "keys</summary>\n" +
+         table_head + of_the_paper + "\n</details>\n";
 }
 
 }  // namespace palpate

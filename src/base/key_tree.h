@@ -17,6 +17,7 @@ struct KeyTree {
   std::string name = {};
   std::string meaning = {};   // with the condition of its use
   std::string fallback = {};  // its default as text
+  bool of_the_paper = false;  // as in Key
   Kind kind = Kind::table;
   Kind item = Kind::number;               // of a list's entries
   Range range = {};                       // of numbers and quantities, SI
@@ -48,7 +49,8 @@ struct FlatKey {
 // Every key that has a value, once; of a list of tables the first table's.
 [[nodiscard]] std::vector<FlatKey> flat_keys(const KeyTree& tree);
 
-// A reference of every key in Markdown: type, range, default, meaning and when it is used.
+// A reference of every key in Markdown: type, range, default, meaning and when it is used. Those
+// for comparisons with the paper are one table at the end, folded.
 [[nodiscard]] std::string manual_of(const KeyTree& tree);
 
 }  // namespace palpate

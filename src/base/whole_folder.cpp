@@ -239,7 +239,11 @@ WholeFolder::WholeFolder(const std::string& place, std::string kind, Replace rep
 }
 
 WholeFolder::~WholeFolder() {
-  if (opened_ && !listed_ && !holds_what_it_keeps(partial_, to_keep_)) remove_partial(partial_);
+  if (opened_ && !listed_ && kept().empty()) remove_partial(partial_);
+}
+
+std::string WholeFolder::kept() const {
+  return opened_ && holds_what_it_keeps(partial_, to_keep_) ? partial_ : "";
 }
 
 std::vector<std::string> WholeFolder::left_beside() const {

@@ -60,6 +60,8 @@ class WholeFolder {
   // From now on, if a file or folder of this name exists in it, the partial folder stays even if
   // the program is killed before put(). Throws SystemError.
   void keep(const std::string& name);
+  // The partial folder if it would stay now for what is kept in it; else empty.
+  [[nodiscard]] std::string kept() const;
 
   // Moves the folder to its place, as `complete` or `incomplete`. If there is something at the
   // place that may not be replaced (an incomplete result never replaces a complete one), the folder

@@ -61,7 +61,8 @@ Part part_of(const Scenario& scenario, const scenario::Cuboid& box) {
 void refuse_unless_refined(const scenario::Family& family, const Scenario& scenario) {
   if (scenario.uniform())
     refuse_at(family, "step",
-              "`palpate reference` refines a press; uniform tests have closed forms");
+              "`palpate reference` refines a press; the reference of a test between platens, with "
+              "its error, is told by `palpate chart`");
   if (std::holds_alternative<scenario::HalfSpace>(scenario.tissue.shape))
     refuse_at(family, "tissue.shape",
               "a `half_space` has no mesh to refine; on it `hertz` is exact for small depths");

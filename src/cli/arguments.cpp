@@ -22,6 +22,9 @@
 namespace palpate::cli {
 namespace {
 
+// The options that follow stand under this heading in the help.
+void heading(CLI::App& verb, const char* words) { verb.option_defaults()->group(words); }
+
 // An option whose value is one of these words.
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& words) {
   return option->type_name(joined(words, "|"))->check(CLI::IsMember(words).description(""));
@@ -50,6 +53,7 @@ void add_check_options(CLI::App& verb, CheckOptions& options) {
 
 // Options on the layout of a measured file, for every verb that reads one.
 void add_data(CLI::App& verb, DataOptions& data) {
+  heading(verb, "Of the measured file");
   verb.add_option("--x", data.x, "Column of x: its name, or its number");
   verb.add_option("--y", data.y, "Column of y: its name, or its number");
   verb.add_option("--x-unit", data.x_unit, "Unit of x, if the file does not give it");
@@ -90,6 +94,7 @@ void add_options(CLI::App& verb, Run& run) {
   CLI::Option* dry =
       verb.add_flag("--dry-run", run.dry, "Say what would be computed; write nothing");
   RunDevice& device = run.device;
+  heading(verb, "With a device");
   CLI::Option* link = verb.add_option(
       "--device", device.link, "Run on " + device::link_forms() + "; without --arm only read");
   link->excludes(dry);
@@ -127,13 +132,19 @@ void add_options(CLI::App& verb, Fit& fit) {
   verb.add_option("--out", fit.out, "Folder for the rows, the population and its figure")
       ->type_name("FOLDER");
   verb.add_flag("--force", fit.force, "Replace that folder");
-  add_data(verb, fit.columns);
   verb.add_flag("--csv", fit.csv, "CSV on a terminal too, where else a table stands");
   one_of(verb.add_option("--model", fit.model, "Curve")->required(), models);
   verb.add_option("--origin", fit.x_origin,
                   "Subtracted from every x; of times, default: where the step is");
-  verb.add_option("--radius", fit.radius, "contact models: of the sphere or punch, as \"11 mm\"");
-  one_of(verb.add_option("--tip", fit.tip, "hertz: default paraboloid"),
+  verb.add_option("--from", fit.from,
+                  "Least depth below contact, as \"0.1 mm\" or \"10 %\"; modulus: strain");
+  verb.add_option("--to", fit.to, "Largest depth or strain, likewise");
+  heading(verb, "Of contact models (hertz, layer, jkr, dmt, adhesive, hertz_...)");
+  verb.add_option("--radius", fit.radius, "Radius of the sphere or punch, as \"11 mm\"");
+  verb.add_option("--poisson", fit.poisson_ratio,
+                  "Poisson's ratio, also of a specimen between bonded platens")
+      ->check(CLI::Range(0.0, 0.5));
+  one_of(verb.add_option("--tip", fit.tip, "hertz: shape of the tip, default paraboloid"),
          {"paraboloid", "sphere", "cone", "pyramid3", "pyramid4", "punch"});
   verb.add_option("--half-angle", fit.half_angle,
                   "hertz: between axis and face of a cone or pyramid, as \"20 deg\"");
@@ -141,42 +152,39 @@ void add_options(CLI::App& verb, Fit& fit) {
                          "hertz, layer: default: what the rows before contact allow"),
          {"none", "offset", "tilt"});
   verb.add_option("--baseline-from", fit.baseline_from,
-                  "the same: rows before contact count from this x on, as \"0.1 mm\"");
-  verb.add_option("--baseline-to", fit.baseline_to, "the same: and up to this x");
+                  "hertz, layer: rows before contact count from this x on, as \"0.1 mm\"");
+  verb.add_option("--baseline-to", fit.baseline_to, "hertz, layer: and up to this x");
   verb.add_option("--contact-point", fit.contact_point,
-                  "the same: where it is known, as \"0.5 mm\"; default: fitted");
+                  "hertz, layer: where it is known, as \"0.5 mm\"; default: fitted");
+  verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
+  one_of(verb.add_option("--base", fit.base, "layer: default bonded"), {"bonded", "frictionless"});
   verb.add_option("--time", fit.time, "hertz_power_law, hertz_solid: column of the times");
   verb.add_option("--atoms", fit.atoms,
                   "adhesive: distance of the atoms at rest, default \"0.3 nm\"");
-  verb.add_option("--from", fit.from,
-                  "Least depth below contact, as \"0.1 mm\" or \"10 %\"; modulus: strain");
-  verb.add_option("--to", fit.to, "Largest depth or strain, likewise");
-  verb.add_option("--height", fit.height, "modulus, neo_hookean, ogden: of the specimen");
-  verb.add_option("--diameter", fit.diameter, "the same: of a round specimen");
-  verb.add_option("--area", fit.area, "the same: of the cross-section, as \"300 mm^2\"");
-  one_of(verb.add_option("--platens", fit.platens, "the same: default slippery"),
+  heading(verb, "Of specimens between platens (modulus, neo_hookean, ogden, yeoh, ogden3)");
+  verb.add_option("--height", fit.height, "Height of the specimen");
+  verb.add_option("--diameter", fit.diameter, "Diameter of a round specimen");
+  verb.add_option("--area", fit.area, "Cross-section of the specimen, as \"300 mm^2\"");
+  one_of(verb.add_option("--platens", fit.platens, "How platens hold it, default slippery"),
          {"slippery", "bonded"});
-  verb.add_option("--cycle", fit.cycle, "the same: which of several loadings, from 1")
+  verb.add_option("--cycle", fit.cycle, "Which of several loadings of a specimen, from 1")
       ->check(CLI::Range(1, 100000));
-  verb.add_flag("--toe", fit.toe, "the same: count from where the line through the stress begins");
-  one_of(verb.add_option("--loading", fit.loading, "the same: default by the signs"),
+  verb.add_flag("--toe", fit.toe, "Strain counts from where the line through the stress begins");
+  one_of(verb.add_option("--loading", fit.loading, "Loading of the specimen, default by the signs"),
          {"compression", "tension"});
-  verb.add_option("--poisson", fit.poisson_ratio,
-                  "contact models, and with bonded platens: Poisson's ratio")
-      ->check(CLI::Range(0.0, 0.5));
-  verb.add_option("--thickness", fit.thickness, "layer: of the tissue, as \"5 mm\"");
-  one_of(verb.add_option("--base", fit.base, "layer: default bonded"), {"bonded", "frictionless"});
+  heading(verb, "Of models over time (prony, prony_creep, spring_pot, ...)");
+  verb.add_option("--ramp", fit.ramp, "Relaxation: duration of the loading ramp, in the unit of x")
+      ->check(CLI::NonNegativeNumber);
   verb.add_option("--terms", fit.terms,
                   "prony: number of relaxation times; above 5 they are spaced in their logarithm")
       ->check(CLI::Range(1, 60));
   verb.add_flag("--liquid", fit.liquid, "prony: a liquid, which flows under load for ever");
-  verb.add_option("--ramp", fit.ramp, "relaxation: duration of the loading ramp, in the unit of x")
-      ->check(CLI::NonNegativeNumber);
   verb.add_option("--history", fit.history,
                   "prony: column of the strain or depth over time (creep: of the stress)");
   verb.add_option("--history-power", fit.history_power,
                   "prony: exponent of that column; default 1, and 1.5 of a depth under a force")
       ->check(CLI::Range(0.5, 3.0));
+  add_data(verb, fit.columns);
 }
 
 void add_options(CLI::App& verb, Data& data) {
@@ -216,8 +224,6 @@ void add_options(CLI::App& all, Golden& golden) {
 }
 
 void add_options(CLI::App& verb, Convert& convert) {
-  constexpr const char* of_bodies = "Of surfaces, meshes and scenarios";
-  constexpr const char* of_results = "Of results";
   verb.add_option(
           "subject", convert.subject,
           "Surface (.stl .obj .ply .off .vtp), mesh (.msh .vtu .vtk .inp .mesh .node .ele), "
@@ -229,28 +235,25 @@ void add_options(CLI::App& verb, Convert& convert) {
           "of results the folder")
       ->allow_extra_args(false);
   verb.add_flag("--force", convert.force, "Replace files");
-  verb.add_option("--unit", convert.unit, "Unit of coordinates, as mm; not for scenarios")
-      ->group(of_bodies);
+  heading(verb, "Of surfaces, meshes and scenarios");
+  verb.add_option("--unit", convert.unit, "Unit of coordinates, as mm; not for scenarios");
   CLI::Option* nodes =
       verb.add_option("--nodes", convert.nodes, "For a surface: about so many nodes")
-          ->check(CLI::Range(4, 1000000))
-          ->group(of_bodies);
+          ->check(CLI::Range(4, 1000000));
   verb.add_option("--edge", convert.edge, "For a surface: about this edge length, as \"3 mm\"")
-      ->excludes(nodes)
-      ->group(of_bodies);
+      ->excludes(nodes);
   verb.add_option("--repair-up-to", convert.repair_up_to,
                   "For a surface: share of the area that holes may have, as 0.1 [0.02]")
-      ->check(CLI::Range(0.0, 0.5))
-      ->group(of_bodies);
+      ->check(CLI::Range(0.0, 0.5));
   verb.add_option("--set", convert.settings, "Set a scenario's key")
       ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->group(of_bodies);
+      ->allow_extra_args(false);
+  heading(verb, "Of results");
   std::vector<std::string> formats;
   for (const report::ExportFormat& format : report::export_formats())
     formats.emplace_back(format.name);
-  one_of(verb.add_option("--to", convert.format, "Format"), formats)->group(of_results);
-  verb.add_option("--case", convert.case_name, "Only this case")->group(of_results);
+  one_of(verb.add_option("--to", convert.format, "Format"), formats);
+  verb.add_option("--case", convert.case_name, "Only this case");
 }
 
 void add_options(CLI::App& verb, Reference& reference) {
@@ -357,7 +360,6 @@ void add_options(CLI::App& verb, Identify& identify) {
   verb.add_option("--with", identify.with,
                   "A further measurement and its scenario, fitted together")
       ->type_name("DATA SCENARIO");
-  add_data(verb, identify.columns);
   verb.add_option("--origin", identify.x_origin,
                   "Subtracted from every x: where the loading history begins");
   one_of(verb.add_option("--noise", identify.noise, "Noise of the measurement"),
@@ -373,6 +375,7 @@ void add_options(CLI::App& verb, Identify& identify) {
   add_settings(verb, identify.settings);
   add_out(verb, identify.out);
   verb.add_flag("--force", identify.force, "Replace a finished result");
+  add_data(verb, identify.columns);
 }
 
 void add_options(CLI::App& all, Device& device) {

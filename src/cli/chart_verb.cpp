@@ -155,13 +155,15 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
   page.section("Configurations", page::table_of_file("Every configuration that was tried",
                                                      with_words(page::columns_of(table, results)),
                                                      "chart.csv", most));
-  std::vector<std::string> all = table.columns;  // each row is headed by its configuration
-  std::erase(all, "configuration");
-  all.insert(all.begin(), "configuration");
-  if (!several) std::erase(all, "case");
-  page.section("Every column",
-               page::table_of_file("Settings, errors and costs", page::columns_of(table, all),
-                                   "chart.csv", most),
+  std::vector<std::string> rest = table.columns;  // each row is headed by its configuration
+  std::erase_if(rest, [&](const std::string& name) {
+    return name == "case" ? !several
+                          : std::find(results.begin(), results.end(), name) != results.end();
+  });
+  rest.insert(rest.begin(), "configuration");
+  page.section("Settings",
+               page::table_of_file("Settings, and what else was measured",
+                                   page::columns_of(table, rest), "chart.csv", most),
                page::Page::Shown::folded);
   page.section("How it was made",
                page::making({.command = "palpate chart " + family.name + ".toml",

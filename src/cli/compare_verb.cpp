@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -97,17 +98,49 @@ page::Markup first_table(std::vector<Item> differing, const Names& names) {
       table);
 }
 
-// These columns file by file.
+// These columns file by file, those without any difference by their names.
 page::Markup all_tables(const compare::FolderComparison& comparison, const std::vector<Item>& items,
                         const Names& names) {
   page::Markup all;
   for (const compare::FileComparison& file : comparison.files) {
     std::vector<Item> of_file;
-    for (const Item& item : items)
-      if (item.file == file.file) of_file.push_back(item);
+    std::vector<std::string> same;
+    for (const Item& item : items) {
+      if (item.file != file.file) continue;
+      if (item.state == Item::State::good && !item.column->worst)
+        same.push_back(ticked(item.name));
+      else
+        of_file.push_back(item);
+    }
     if (!of_file.empty()) all += page::table(file.file, table_of(of_file, names));
+    if (!same.empty())
+      all += page::paragraphs({"The same in " + ticked(file.file) + ": " + joined(same, ", ")});
   }
   return all;
+}
+
+// `Model in a: layer, with a stated error of 2.5 %`, of a result folder; of several cases every
+// model and the largest error. Empty without a model.
+std::string model_text(const std::string& name, const std::string& folder) {
+  const std::string file = folder + "/findings.csv";
+  if (!fs::exists(file)) return "";
+  const record::Table table = record::read_csv(file);
+  const int model = table.find("model"), error = table.find("stated_error");
+  std::set<std::string> models;
+  double most = 0.0;
+  for (const auto& row : table.rows) {
+    if (model >= 0)
+      if (const auto* word = std::get_if<std::string>(&row[as_index(model)])) models.insert(*word);
+    if (error >= 0)
+      if (const auto* number = std::get_if<double>(&row[as_index(error)]))
+        most = std::max(most, *number);
+  }
+  if (models.empty()) return "";
+  return "Model in " + name + ": " +
+         joined(std::vector<std::string>(models.begin(), models.end()), ", ") +
+         (most > 0.0 ? ", with a stated error of " +
+                           std::string(table.rows.size() > 1 ? "up to " : "") + error_text(most)
+                     : "");
 }
 
 // Whether the rows of every case have another value of the column than the row before.
@@ -278,6 +311,10 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
                  cell_text(row.want) + " in " + names.want + "."});
   }
   page.answer(alone);
+  std::vector<std::string> models{model_text(names.got, command.got),
+                                  model_text(names.want, command.want)};
+  std::erase(models, "");
+  page.answer(models);
   page.figures(overlays(command, comparison, names, talk));
   page.section("What differs", first_table(differing, names));
   constexpr auto folded = page::Page::Shown::folded;

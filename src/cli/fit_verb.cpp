@@ -19,7 +19,7 @@
 #include "plot/gnuplot.h"
 #include "record/csv.h"
 #include "record/table.h"
-#include "report/run_page.h"
+#include "report/finding_words.h"
 
 namespace palpate::cli {
 namespace {

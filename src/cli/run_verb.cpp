@@ -211,7 +211,15 @@ int perform(const Run& command, const Arguments& arguments, const Talk& talk) {
   Ran ran;
   for (const Prepared& prepared : all) {
     if (StopScope::stopped()) break;
-    const auto [kept, diverged, missing] = run_family(prepared, arguments, talk);
+    const auto [kept, diverged, missing] = [&] {
+      try {
+        return run_family(prepared, arguments, talk);
+      } catch (const SystemError& error) {
+        const std::string left = prepared.folder->kept();
+        throw SystemError(error.what() +
+                          (left.empty() ? "" : "; the finished cases are in " + left));
+      }
+    }();
     ran.kept += kept;
     ran.diverged = ran.diverged || diverged;
     ran.missing += missing;

@@ -473,7 +473,7 @@ class Roff {
         std::string name = line.substr(level + 1);
         std::erase(name, '`');
         level <= 2 ? section(name) : subsection(name);
-      } else if (!line.empty()) {
+      } else if (!line.empty() && line[0] != '<') {  // a tag, which folds on a page
         paragraph(line);
       }
     }

@@ -90,7 +90,7 @@ std::string github_annotations(std::span<const Check> checks) {
     const std::vector<Item> bad =
         check.error.empty() ? differences(check.comparison) : items_of(check);
     const Item& item = bad.front();
-    std::filesystem::path file(check.want);
+    std::filesystem::path file(check.error.empty() ? check.want : check.name);
     if (!item.file.empty() && !check.one_file) file /= item.file;
     text += "::error file=" + command_text(file.generic_string(), Part::property);
     if (const std::size_t line = line_of(check, item); line > 0)

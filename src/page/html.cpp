@@ -104,6 +104,15 @@ Markup cell(const record::Cell& value, bool heading, const std::string& column) 
   return element(heading ? "th" : "td", word == nullptr ? std::string("–") : *word, attributes);
 }
 
+// Whether a row says something in this column.
+bool has_values(const record::Table& content, std::size_t column) {
+  return std::any_of(content.rows.begin(), content.rows.end(), [&](const auto& row) {
+    if (const auto* number = std::get_if<double>(&row[column])) return std::isfinite(*number);
+    const auto* word = std::get_if<std::string>(&row[column]);
+    return word != nullptr && !word->empty();
+  });
+}
+
 // Whether a column has a number and no word, so that its head stands to the right as well.
 bool stands_right(const record::Table& content, std::size_t column) {
   bool number = false;
@@ -117,16 +126,18 @@ bool stands_right(const record::Table& content, std::size_t column) {
 }  // namespace
 
 Markup table(const std::string& caption, const record::Table& content) {
-  Markup head;
-  for (std::size_t i = 0; i < content.columns.size(); ++i) {
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < content.columns.size(); ++i)
+    if (i == 0 || has_values(content, i)) columns.push_back(i);
+  Markup head, body;
+  for (const std::size_t i : columns) {
     Attributes attributes{{"scope", "col"}};
     if (i > 0 && stands_right(content, i)) attributes.emplace_back("class", "number");
     head += element("th", content.columns[i], attributes);
   }
-  Markup body;
   for (const auto& row : content.rows) {
     Markup cells;
-    for (std::size_t i = 0; i < row.size(); ++i) cells += cell(row[i], i == 0, content.columns[i]);
+    for (const std::size_t i : columns) cells += cell(row[i], i == 0, content.columns[i]);
     body += element("tr", cells) + Markup::ready("\n");
   }
   constexpr std::size_t many = 8;  // columns; more do not fit on paper side by side
@@ -134,7 +145,7 @@ Markup table(const std::string& caption, const record::Table& content) {
       "div",
       element("table", element("caption", caption) + element("thead", element("tr", head)) +
                            element("tbody", body)),
-      {{"class", content.columns.size() > many ? "wide many" : "wide"},
+      {{"class", columns.size() > many ? "wide many" : "wide"},
        {"tabindex", "0"},
        {"role", "region"},
        {"aria-label", caption}});
@@ -160,7 +171,7 @@ Markup table_of_file(const std::string& caption, const record::Table& content,
                                ? "The first " + std::to_string(most) + " of " +
                                      std::to_string(content.rows.size()) +
                                      " rows; all of them are in "
-                               : "All digits are in ";
+                               : "All columns and digits are in ";
   return table(caption, shown) + element("p", text(what) + link(file, file) + text("."));
 }
 

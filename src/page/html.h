@@ -46,8 +46,9 @@ using Attributes = std::vector<std::pair<std::string_view, std::string>>;
 [[nodiscard]] Markup sentence(std::string_view words);
 [[nodiscard]] Markup paragraphs(const std::vector<std::string>& sentences);
 
-// A table with a caption and row headings in its first column. Numbers have four digits and stand
-// to the right. It scrolls by itself, also by keyboard, if it is wider than the page.
+// A table with a caption and row headings in its first column, without other columns in which no
+// row has a value. Numbers have four digits and stand to the right. It scrolls by itself, also by
+// keyboard, if it is wider than the page.
 [[nodiscard]] Markup table(const std::string& caption, const record::Table& content);
 // These columns of a table, in this order; those that are there.
 [[nodiscard]] record::Table columns_of(const record::Table& content,

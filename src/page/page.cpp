@@ -35,7 +35,7 @@ input:focus-visible { outline: 3px solid var(--link); outline-offset: 2px; }
 .result { background: var(--card); border-left: .35rem solid var(--link); padding: .6rem 1rem;
   font-size: 1.08rem; } .result p { margin: .35rem 0; }
 main section:first-child h2 { margin-top: .8rem; } .beside > * { margin: 0; }
-@media screen and (min-width: 75rem) { body:has(.beside) { max-width: 84rem; }
+@media screen and (min-width: 75rem) { body:has(.beside), body:has(.cards) { max-width: 84rem; }
   header:has(.beside) { display: grid; grid-template: auto 1fr / minmax(0, 1fr) minmax(0, 40rem);
     column-gap: 2rem; } .said, nav { grid-column: 1; } .beside { grid-area: 1 / 2 / 3 / 3; }
   .beside svg { max-height: calc(100vh - 7rem); } .figures { display: grid; gap: 0 2rem;
@@ -64,8 +64,9 @@ code, pre { font: .92em/1.45 ui-monospace, monospace; } pre { background: var(--
   padding: .8rem; white-space: pre-wrap; } code { background: var(--card); }
 summary { cursor: pointer; padding: .4rem 0; } summary h2 { display: inline; border: 0; padding: 0; }
 section + section > details:first-child { border-top: 1px solid var(--line); }
-.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(16rem, 1fr)); gap: 1.2rem; }
-.cards figure svg { max-height: 27rem; } .cards .plot text { font-size: 1.22em; } .cards .plot svg { overflow: visible; } .cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; } .cards figure { margin: 0; }
+.cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); gap: 1.2rem; }
+.cards section, .cards p { margin: 0; } .cards h3 { margin: .3rem 0; }
+.cards figure { margin: 0; max-height: 34rem; overflow: hidden; }
 .whole .words { min-width: 0; white-space: normal; } .whole table { width: 100%; }
 @media screen and (max-width: 37rem) { .wide thead { display: none; }
   .wide table, .wide tr, .wide th, .wide .words { display: block; } .wide td { display: inline-block; margin-right: 1rem; white-space: normal; }
@@ -84,7 +85,7 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .5rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
-  .wide { overflow: visible; } .wide table { font-size: .78rem; } figure svg { max-height: 19cm; } .beside svg { max-height: 13cm; }
+  .wide { overflow: visible; } .wide table { font-size: .78rem; break-inside: avoid; } figure svg { max-height: 19cm; } .beside svg { max-height: 13cm; }
   h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { margin-top: .3rem; }
   tbody tr:first-child { break-before: avoid; } summary { list-style: none; break-after: avoid; }
   details::details-content { content-visibility: visible; height: auto; }

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/text.h"
-#include "report/run_page.h"
+#include "report/finding_words.h"
 
 namespace palpate::report {
 namespace {
@@ -50,8 +50,11 @@ std::optional<Range> range_of(const std::vector<record::CaseRecord>& records,
 
 // "Peak force: 0.1 N (`skin`) to 2 N (`bone`)"
 std::string range_text(const std::string& what, const Range& range, const std::string& unit) {
-  return what + ": " + rounded_text(range.low, 3) + unit + " (" + ticked(range.least->name) +
-         ") to " + rounded_text(range.high, 3) + unit + " (" + ticked(range.most->name) + ")";
+  const auto text = [&](double value, const record::CaseRecord& record) {
+    return rounded_text(value, warranted_digits(record.answer)) + unit + " (" +
+           ticked(record.name) + ")";
+  };
+  return what + ": " + text(range.low, *range.least) + " to " + text(range.high, *range.most);
 }
 
 std::string models(const std::vector<record::CaseRecord>& records) {

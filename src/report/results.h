@@ -61,6 +61,8 @@ class ResultFolder {
                                   const std::vector<fit::NamedFit>& fits, const Origin& origin);
 
   [[nodiscard]] const std::string& path() const { return folder_.path(); }
+  // The partial folder if a case was kept in it; else empty.
+  [[nodiscard]] std::string kept() const { return folder_.kept(); }
 
  private:
   void keep_for_a_kill(const std::string& folder, const std::string& curve,

@@ -19,6 +19,7 @@
 #include "plot/gnuplot_text.h"
 #include "record/record.h"
 #include "report/answer_lines.h"
+#include "report/finding_words.h"
 #include "report/map_picture.h"
 #include "report/scene_picture.h"
 #include "scenario/family.h"
@@ -26,155 +27,6 @@
 #include "scenario/resolved.h"
 
 namespace palpate::report {
-namespace {
-
-enum Group : std::size_t { course, peak, error, gauge, validity, mesh, time, checks };
-
-struct Row {
-  std::string_view name;
-  Group group;
-  std::string_view unit;  // `%`: the finding is a part of 1
-  std::string_view label;
-};
-
-constexpr std::array finding_rows{
-    Row{"outcome", course, "", "how the case ended"},
-    Row{"last_stable_time_s", course, "s", "last stable time"},
-    Row{"model", course, "", "model that ran"},
-    Row{"display_scale", course, "", "factor of this case in figures; the CSV files are in N"},
-    Row{"peak_force_N", peak, "N", "largest force"},
-    Row{"peak_friction_N", peak, "N", "largest tangential force that friction allows"},
-    Row{"peak_indentation_mm", peak, "mm", "effective depth there"},
-    Row{"peak_travel_mm", peak, "mm", "displacement of the finger there"},
-    Row{"local_curvature_per_m", peak, "1/m", "curvature of the surface there, convex positive"},
-    Row{"signed_curvature_per_m", peak, "1/m", "the same with the signs of the votes"},
-    Row{"surface_displacement_mm", peak, "mm", "largest displacement of the loaded node"},
-    Row{"friction_jump_N", peak, "N", "largest change of the tangential force between two rows"},
-    Row{"turning_drop", peak, "%", "part of the force that is lost where the finger turns back"},
-    Row{"edge_reaction_over_force", peak, "%", "part of the force that the fixed edge carries"},
-    Row{"peak_strain", peak, "%", "largest strain"},
-    Row{"elastic_strain", peak, "%", "final strain under the first stress"},
-    Row{"predicted_error", error, "%", "error of the force, estimated before the run"},
-    Row{"stated_error", error, "%", "error of the force, estimated after the run"},
-    Row{"mesh_error", error, "%", "error of the mesh in the largest force"},
-    Row{"predicted_force_over_hertz", error, "", "force over Hertz's force, estimated"},
-    Row{"force_over_hertz", error, "", "force over Hertz's force, computed"},
-    Row{"measured_verdict", gauge, "", "measured force against the model's"},
-    Row{"measured_causes", gauge, "", "likely causes of the difference"},
-    Row{"measured_difference_N", gauge, "N", "measured minus computed force, root mean square"},
-    Row{"measured_difference", gauge, "%", "the same over the largest computed force"},
-    Row{"measured_allowed", gauge, "%", "difference that is allowed"},
-    Row{"measured_offset_N", gauge, "N", "force before contact, median"},
-    Row{"measured_noise_N", gauge, "N", "force before contact, standard deviation"},
-    Row{"measured_drift_N", gauge, "N", "force after contact minus before"},
-    Row{"measured_stiffness", gauge, "", "measured over computed force, by least squares"},
-    Row{"measured_surface_mm", gauge, "mm", "how much lower the specimen lies"},
-    Row{"measured_hysteresis", gauge, "%", "energy lost in the cycle, measured"},
-    Row{"model_hysteresis", gauge, "%", "energy lost in the cycle, computed"},
-    Row{"measured_contact_mm", gauge, "mm", "displacement at first contact, measured"},
-    Row{"model_contact_mm", gauge, "mm", "displacement at first contact, computed"},
-    Row{"measured_release_mm", gauge, "mm", "displacement at release, measured"},
-    Row{"model_release_mm", gauge, "mm", "displacement at release, computed"},
-    Row{"depth_ratio", validity, "", "effective depth over radius, h / R"},
-    Row{"contact_radius_ratio", validity, "", "contact radius over radius, a / R"},
-    Row{"thickness_ratio", validity, "", "contact radius over the height of the specimen"},
-    Row{"curvature_ratio", validity, "", "ratio of the two curvatures at first contact"},
-    Row{"force_over_pull_off", validity, "", "force over an adhesive pull-off force"},
-    Row{"thickness_effect", validity, "%", "more force by the finite thickness"},
-    Row{"side_effect", validity, "%", "change by free sides of flat layers"},
-    Row{"body_effect", validity, "%", "change of a half-space's force by the body's size"},
-    Row{"edge_effect", validity, "%", "bound of what a near edge changes"},
-    Row{"deep_effect", validity, "%", "change by large depth in soft, large-strain tissue"},
-    Row{"viscous_effect", validity, "%", "change by viscosity"},
-    Row{"inertia_effect", validity, "%", "change by inertia"},
-    Row{"finger_compliance_share", validity, "%", "the finger's part of the compliance"},
-    Row{"effective_modulus_kPa", validity, "kPa", "effective modulus E* of finger and tissue"},
-    Row{"peak_stress_kPa", peak, "kPa", "largest stress"},
-    Row{"secant_modulus_kPa", peak, "kPa", "largest stress over the final strain"},
-    Row{"young_modulus_kPa", validity, "kPa", "Young's modulus of the tissue"},
-    Row{"needed_device_damping_N_s_per_m", validity, "N s/m", "damping that the device needs"},
-    Row{"passive_depth_mm", validity, "mm", "depth above which the device damps too little"},
-    Row{"nodes", mesh, "", "nodes"},
-    Row{"mirrored_copies", mesh, "", "parts that the mesh stands for, by its mirrors"},
-    Row{"meshes", mesh, "", "meshes whose forces are extrapolated"},
-    Row{"factorisations", mesh, "", "factorisations of the finest mesh's stiffness"},
-    Row{"nodes_before_refining", mesh, "", "nodes before refining"},
-    Row{"tetrahedra", mesh, "", "tetrahedra"},
-    Row{"springs", mesh, "", "springs"},
-    Row{"springs_young_modulus_kPa", mesh, "kPa", "Young's modulus of the springs, measured"},
-    Row{"springs_poisson_ratio", mesh, "", "Poisson's ratio of the springs, measured"},
-    Row{"kept_modes", mesh, "", "modes that are used"},
-    Row{"locking", mesh, "", "displacement over that of the mesh that resists volume less"},
-    Row{"stable_time_step_ms", time, "ms", "longest stable time step"},
-    Row{"time_step_ms", time, "ms", "time step"},
-    Row{"substeps", time, "", "solver steps per `solver.time_step`"},
-    Row{"damping_ratio", time, "", "damping ratio of the lowest mode"},
-    Row{"creep_half_time_s", time, "s", "time until half of the final strain"},
-    Row{"pressure_map_imbalance", checks, "%", "pressure maps against the force"},
-    Row{"friction_imbalance", checks, "%", "pressure maps against the friction limit"},
-    Row{"energy_imbalance", checks, "%", "energy that is not accounted for"},
-    Row{"dropped_inertia", checks, "%", "motion that follows without inertia"},
-    Row{"solution_error", checks, "%", "error of the solutions, as energy"},
-};
-
-}  // namespace
-
-const std::vector<FindingGroup>& finding_groups() {
-  static const std::vector<FindingGroup> groups{
-      {"Course", "How the case ran and ended."},
-      {"Peak", "The values at the largest force or strain."},
-      {"Error of the model", "What is known about the error of the force, as a part of it."},
-      {"Measured and computed", "The gauge of a live run against the model."},
-      {"Validity",
-       "Sizes that decide whether the model's assumptions hold; a change is a part of the force."},
-      {"Mesh", "The mesh that stood for the tissue."},
-      {"Time", "The steps in time."},
-      {"Checks", "Balances that would be zero in exact arithmetic on an infinitely fine mesh."},
-      {"More", "Values that the scenario names."}};
-  return groups;
-}
-
-FindingWords words_of_finding(const std::string& name) {
-  const auto row = std::find_if(finding_rows.begin(), finding_rows.end(),
-                                [&](const Row& each) { return each.name == name; });
-  if (row != finding_rows.end())
-    return {.group = row->group, .label = std::string(row->label), .unit = std::string(row->unit)};
-  return {.group = finding_groups().size() - 1, .label = name};
-}
-
-std::string finding_text(const record::Finding& finding, int digits) {
-  if (const auto* word = std::get_if<std::string>(&finding.value)) return *word;
-  const auto* number = std::get_if<double>(&finding.value);
-  if (number == nullptr) return "–";
-  const std::string unit = words_of_finding(finding.name).unit;
-  if (unit == "%") return plot::tick_text(100.0 * *number, std::min(digits, 3)) + " %";
-  return plot::tick_text(*number, digits) + (unit.empty() ? "" : " " + unit);
-}
-
-int warranted_digits(const record::Answer& answer) {
-  const double error = answer.stated_error.value_or(0.05);
-  return error > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 2, 4) : 4;
-}
-
-std::string warranted_text(double value, double low, double high) {
-  const double half = 0.5 * (high - low);
-  if (!std::isfinite(half) || half <= 0.0 || value == 0.0) return rounded_text(value);
-  const int digits = static_cast<int>(std::floor(std::log10(std::abs(value)))) -
-                     static_cast<int>(std::floor(std::log10(half))) + 2;
-  return rounded_text(value, std::clamp(digits, 1, 4));
-}
-
-double finding_number(const record::CaseRecord& record, std::string_view name) {
-  return record::number_of(record, name).value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
-std::string finding_word(const record::CaseRecord& record, std::string_view name) {
-  for (const record::Finding& finding : record.findings)
-    if (finding.name == name)
-      if (const auto* word = std::get_if<std::string>(&finding.value)) return *word;
-  return {};
-}
-
 namespace {
 
 using page::element;
@@ -299,6 +151,7 @@ void add_curvatures(Rows& rows, const scenario::Family& family, const Records& r
 }
 
 void add_strains(Rows& rows, const scenario::Family& family, const Records& records) {
+  std::string half_times;
   for (const record::CaseRecord& record : records) {
     const scenario::Case& one = scenario::case_named(family, record.name);
     const double modulus = one.materials.tissue.young_modulus.value;
@@ -312,12 +165,8 @@ void add_strains(Rows& rows, const scenario::Family& family, const Records& reco
                    ": the strain goes to stress / E = " + rounded_text(strain, 4),
                rounded_text(here, 4), agrees(std::abs(here / strain - 1.0) < rounding),
                "the springs are scaled to the tissue's modulus");
-      rows.add("Stiffer tissues settle later",
-               "half of the final strain of " + record.name + " after " +
-                   rounded_text(finding_number(record, "creep_half_time_s"), 3) + " s",
-               agrees(false),
-               "a dashpot along every spring settles with eta / E, sooner where E is larger; the "
-               "paper's curves show oscillation, or viscosities that it does not list");
+      half_times += (half_times.empty() ? "half of the final strain of " : ", of ") + record.name +
+                    " after " + rounded_text(finding_number(record, "creep_half_time_s"), 3) + " s";
       const double limit = finding_number(record, "stable_time_step_ms");
       if (std::isfinite(limit))
         rows.add("A time step of " +
@@ -330,6 +179,10 @@ void add_strains(Rows& rows, const scenario::Family& family, const Records& reco
       break;
     }
   }
+  if (!half_times.empty())
+    rows.add("Stiffer tissues settle later", half_times, agrees(false),
+             "a dashpot along every spring settles with eta / E, sooner where E is larger; the "
+             "paper's curves show oscillation, or viscosities that it does not list");
   rows.add("The right half is called relaxation", "it is recovery: strain after unloading",
            agrees(false), "relaxation is the stress at a constant strain");
 }
@@ -356,10 +209,7 @@ page::Markup paper_section(const scenario::Family& family, const Records& record
   return element("div", page::table("The paper beside this run", rows.table), {{"class", "whole"}});
 }
 
-using page::element;
-using page::Markup;
 using page::text;
-using Records = std::vector<record::CaseRecord>;
 
 constexpr std::size_t most_columns = 6;  // cases of a table with one column per case
 constexpr std::size_t most_rows = 200;
@@ -381,6 +231,7 @@ Markup findings_by_case(const Records& records) {
   const bool frictionless = std::all_of(records.begin(), records.end(), [](const auto& record) {
     return finding_number(record, "peak_friction_N") == 0.0;
   });
+  const std::size_t of_peak = words_of_finding("peak_force_N").group;
   for (std::size_t group = 0; group < finding_groups().size(); ++group) {
     record::Table table{{"finding"}, {}};
     std::vector<std::string> names;
@@ -400,7 +251,7 @@ Markup findings_by_case(const Records& records) {
                          [&](const record::Finding& finding) { return finding.name == name; });
         const bool known =
             found != record.findings.end() && !std::holds_alternative<std::monostate>(found->value);
-        const int digits = group == peak ? warranted_digits(record.answer) : 4;
+        const int digits = group == of_peak ? warranted_digits(record.answer) : 4;
         row.push_back(known ? record::Cell(finding_text(*found, digits)) : record::Cell());
       }
       const bool empty = std::all_of(row.begin() + 1, row.end(), [](const record::Cell& cell) {
@@ -435,8 +286,8 @@ Markup fits(const std::vector<fit::NamedFit>& fits) {
   if (table.rows.empty()) return {};
   constexpr std::size_t most = 60;
   return element("p",
-                 "Curves fitted to the computed rows. The interval holds if the law is right and "
-                 "the residuals are independent; an R² below 0.99 says that the law is wrong.") +
+                 "Curves fitted to the computed rows. The interval takes correlated residuals into "
+                 "account and holds if the law is right; an R² below 0.99 says that it is wrong.") +
          page::table_of_file("Fits", table, "fits.csv", most);
 }
 
@@ -526,7 +377,9 @@ std::string peak_error(const record::CaseRecord& record) {
 
 // Why a case ended early, as a sentence.
 std::string early_end(const record::CaseRecord& record) {
-  return record.reason + "; last stable time " + rounded_text(record.last_stable_time) + " s";
+  return record.reason + (record.last_stable_time > 0.0
+                              ? "; last stable time " + rounded_text(record.last_stable_time) + " s"
+                              : "");
 }
 
 // The verdict of a live run in two: whether measured and model agree, by how much, and what causes
@@ -596,29 +449,62 @@ std::string loading_text(const scenario::Case& one) {
   return capitalized(text);
 }
 
-// `Tissue: skin, E 72.4 kPa, nu 0.33, with 1 region of other tissue`
-std::string tissue_text(const scenario::Case& one) {
-  const scenario::Tissue& tissue = one.scenario.tissue;
-  const double modulus = tissue.young_modulus.value_or(one.materials.tissue.young_modulus.value);
-  const std::size_t regions = one.scenario.regions.size();
-  return "Tissue: " + tissue.material.substr(tissue.material.rfind('#') + 1) + ", E " +
-         rounded_text(unit::kPa.from_si(modulus), 3) + " kPa, nu " +
-         rounded_text(scenario::poisson_ratio(one), 3) +
-         (regions > 0 ? ", with " + count_text(regions, "region") + " of other tissue" : "");
+// `skin, E 72.4 kPa`
+std::string material_text(const std::string& name, double modulus) {
+  return name.substr(name.rfind('#') + 1) + ", E " + rounded_text(unit::kPa.from_si(modulus), 3) +
+         " kPa";
 }
 
-// What was tested, where, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33, pressed 2 mm by a
+// `Tissue: skin, E 72.4 kPa, nu 0.33`
+std::string tissue_text(const scenario::Case& one) {
+  const scenario::Tissue& tissue = one.scenario.tissue;
+  return "Tissue: " +
+         material_text(tissue.material,
+                       tissue.young_modulus.value_or(one.materials.tissue.young_modulus.value)) +
+         ", nu " + rounded_text(scenario::poisson_ratio(one), 3);
+}
+
+// `region 1: skin, E 1000 kPa`; of more than three their number. Empty without regions.
+std::string regions_text(const scenario::Case& one) {
+  const std::vector<scenario::Region>& regions = one.scenario.regions;
+  constexpr std::size_t most = 3;
+  if (regions.size() > most) return std::to_string(regions.size()) + " regions of other tissue";
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    all.push_back(
+        "region " + std::to_string(i + 1) + ": " +
+        material_text(regions[i].material, regions[i].young_modulus.value_or(
+                                               one.materials.regions[i].young_modulus.value)));
+  return joined(all, "; ");
+}
+
+// `, then slid by 40 mm`
+std::string slides_text(const scenario::Case& one) {
+  std::string text;
+  for (const scenario::Step& step : one.scenario.steps)
+    if (const auto* slide = std::get_if<scenario::Slide>(&step))
+      text += (text.empty() ? ", then slid by " : " and by ") + quantity_text(slide->by, unit::mm) +
+              (slide->keep == scenario::Slide::Keep::force ? " at the same force" : "");
+  return text;
+}
+
+// What was tested, where, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33; pressed 2 mm by a
 // sphere of radius 11 mm at x 30, y 30, z 30 mm; underside fixed (bonded base).`
 std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
-  std::string text = tissue_text(one);
+  std::vector<std::string> all{tissue_text(one), regions_text(one)};
   const double depth = finding_number(record, "peak_travel_mm");
   if (std::isfinite(depth))
-    text += ", pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one) +
-            place_text(one, record.picture);
+    all.push_back("pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one) +
+                  place_text(one, record.picture) + slides_text(one));
   const std::string& side = one.scenario.tissue.base_side;
   if (!record.picture.base.empty())
-    text += "; " + (side.empty() ? "underside" : "side " + side) + " " + record.picture.base;
-  return text + ".";
+    all.push_back((side.empty() ? "underside " : "side " + side + " ") + record.picture.base);
+  for (const scenario::Step& step : one.scenario.steps)
+    if (const auto* compress = std::get_if<scenario::Compress>(&step))
+      all.push_back(compress->platen == tissue::Base::bonded ? "upper platen bonded"
+                                                             : "upper platen slides");
+  std::erase(all, "");
+  return joined(all, "; ") + ".";
 }
 
 record::Table case_table(const scenario::Family& family, const Records& records) {
@@ -638,8 +524,25 @@ record::Table case_table(const scenario::Family& family, const Records& records)
   return table;
 }
 
-// What several cases have in common: the tissue, and the finger with its place, or the loading
-// between plates.
+// `Cases differ in region 1 Young's modulus: 20 kPa, 1000 kPa`; nothing without a sweep.
+std::string differing_text(const scenario::Family& family) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < family.design.keys().size(); ++k) {
+    std::vector<std::string> values;
+    for (const scenario::Case& one : family.cases)
+      if (const std::string& value = one.swept[k].second;
+          std::find(values.begin(), values.end(), value) == values.end())
+        values.push_back(value);
+    all.push_back(within_sentence(plot::key_label(family.design.keys()[k])) +
+                  (values.size() > most ? " (" + std::to_string(values.size()) + " values)"
+                                        : ": " + joined(values, ", ")));
+  }
+  return all.empty() ? "" : "Cases differ in " + joined(all, "; ");
+}
+
+// What several cases have in common: the tissue, its regions, and the finger with its place, or the
+// loading between plates; and in what they differ.
 std::vector<std::string> in_common(const scenario::Family& family, const Records& records) {
   const auto common = [&](const auto& text_of) {
     const std::string text = text_of(family.cases.front());
@@ -647,16 +550,18 @@ std::vector<std::string> in_common(const scenario::Family& family, const Records
                                   [&](const auto& one) { return text_of(one) == text; });
     return same ? text : "";
   };
-  std::string loading = common([&](const scenario::Case& one) {
-    return family.base.uniform() ? loading_text(one) : "Pressed by " + finger_text(one);
-  });
   const std::vector<std::string>& keys = family.design.keys();
   const bool one_place = std::none_of(keys.begin(), keys.end(), [](const std::string& key) {
     return key.starts_with("finger.") || key.starts_with("tissue.shape");
   });
-  if (one_place && !loading.empty())
-    loading += place_text(family.cases.front(), records.front().picture);
-  std::vector<std::string> all{common(tissue_text), loading};
+  std::string loading = common([&](const scenario::Case& one) {
+    return family.base.uniform()
+               ? loading_text(one)
+               : "Pressed by " + finger_text(one) +
+                     (one_place ? place_text(one, records.front().picture) : "") + slides_text(one);
+  });
+  std::vector<std::string> all{common(tissue_text), common(regions_text), loading,
+                               differing_text(family)};
   std::erase(all, "");
   return all;
 }

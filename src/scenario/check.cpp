@@ -139,9 +139,13 @@ class Checker {
                         ", where no Hertz contact is left; press less deep");
     const auto* box = std::get_if<Cuboid>(&scenario_.tissue.shape);
     if (travel > radius || box == nullptr) return;
-    if (travel > 0.9 * box->size[2])
-      problem(path, to + " presses through the specimen, which is " +
-                        quantity_text(box->size[2], unit::mm) + " high; press less deep");
+    constexpr double through = 0.9;
+    if (const double height = box->size[2]; travel > through * height)
+      problem(path, to +
+                        (travel < height ? " takes more than " + percent_text(through) + " of"
+                                         : std::string(" presses through")) +
+                        " the specimen, which is " + quantity_text(height, unit::mm) +
+                        " high; press less deep");
     else if (std::sqrt(radius * travel) > 0.5 * std::min(box->size[0], box->size[1]))
       problem(path, to + " makes a contact wider than the specimen's top; press less deep or use a "
                          "wider specimen");
@@ -295,7 +299,7 @@ class Checker {
     const ModelTraits* const given = solver.model ? &traits(*solver.model) : nullptr;
     if (given != nullptr && !given->uniform && scenario_.uniform())
       problem("solver.model", "`" + std::string(given->word) +
-                                  "` has no specimen to creep or relax; set " +
+                                  "` has no specimen between platens; set " +
                                   models_that(std::mem_fn(&ModelTraits::uniform)));
     viscosity();
     if (scenario_.contact.depth == Contact::Depth::neo_hookean && !scenario_.uniform() &&

@@ -56,10 +56,12 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
                    finger.radius, unit::mm, between(unit::mm.to_si(1e-6), unit::mm.to_si(1e6)));
   visitor.count({"spheres", "Sphere bodies of equal mass that make up the finger, eq. (5)."},
                 finger.spheres, between(1, 64));
-  visitor.choice({"calibration",
-                  "Which property several spheres share with the single sphere that they replace.",
-                  {finger.spheres > 1, "with more than one of `spheres`", Use::Otherwise::note}},
-                 finger.calibration, calibrations);
+  visitor.choice(
+      of_the_paper(
+          {"calibration",
+           "Which property several spheres share with the single sphere that they replace.",
+           {finger.spheres > 1, "with more than one of `spheres`", Use::Otherwise::note}}),
+      finger.calibration, calibrations);
   visitor.quantity_or(
       "auto",
       {"x",
@@ -92,14 +94,16 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
 void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& use) {
   visitor.choice({"coupling", "How contact law and mesh share the tissue's compliance.", use.mesh},
                  contact.coupling, couplings);
-  visitor.choice({"law", "How the tissue's curvature enters the contact law."}, contact.law, laws);
-  visitor.choice({"curvature", "How curvature is computed on a mesh.", use.mesh}, contact.curvature,
-                 curvature_methods);
-  visitor.choice({"curvature_on", "The surface whose curvature is used.", use.mesh},
+  visitor.choice(of_the_paper({"law", "How the tissue's curvature enters the contact law."}),
+                 contact.law, laws);
+  visitor.choice(of_the_paper({"curvature", "How curvature is computed on a mesh.", use.mesh}),
+                 contact.curvature, curvature_methods);
+  visitor.choice(of_the_paper({"curvature_on", "The surface whose curvature is used.", use.mesh}),
                  contact.curvature_on, curvature_surfaces);
-  visitor.count({"curvature_rings",
-                 "Rings of vertices around the contact that curvature depends on.", use.mesh},
-                contact.curvature_rings, between(1, 8));
+  visitor.count(
+      of_the_paper({"curvature_rings",
+                    "Rings of vertices around the contact that curvature depends on.", use.mesh}),
+      contact.curvature_rings, between(1, 8));
   visitor.choice_or(auto_contact_viscosities,
                     {"viscosity", "Whether the contact force includes the tissue's viscosity."},
                     contact.viscosity, contact_viscosities);
@@ -111,14 +115,16 @@ void contact_fields(FieldVisitor& visitor, Contact& contact, const Conditions& u
                      {contact.coupling == contact::Coupling::resolved,
                       "with `coupling = \"resolved\"`", Use::Otherwise::note}},
                     contact.direction, directions);
-  visitor.choice({"spread", "How a contact force is distributed over nodes.", use.mesh},
-                 contact.spread, loaded);
+  visitor.choice(
+      of_the_paper({"spread", "How a contact force is distributed over nodes.", use.mesh}),
+      contact.spread, loaded);
   visitor.number({"friction", "Coulomb's coefficient mu."}, contact.friction, at_least(0));
   visitor.choice(
-      {"slip",
-       "How friction sets in. With `coupling = \"consistent\"` on a bonded base the mesh tells "
-       "how far the tissue follows the finger; otherwise it does so as a half-space.",
-       {contact.friction > 0.0, "with `friction` above 0", Use::Otherwise::note}},
+      of_the_paper(
+          {"slip",
+           "How friction sets in. With `coupling = \"consistent\"` on a bonded base the mesh tells "
+           "how far the tissue follows the finger; otherwise it does so as a half-space.",
+           {contact.friction > 0.0, "with `friction` above 0", Use::Otherwise::note}}),
       contact.slip, slips);
   visitor.quantity({"ambient_force", "F_a of eq. (1), added to the force."}, contact.ambient_force,
                    unit::N, {});
@@ -140,7 +146,7 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
   visitor.number({"tolerance", "Relative error of the force that `auto` accepts."},
                  solver.tolerance,
                  {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false});
-  visitor.choice({"stiffness", "Spring stiffness from Young's modulus.", use.springs},
+  visitor.choice(of_the_paper({"stiffness", "Spring stiffness from Young's modulus.", use.springs}),
                  solver.stiffness, stiffnesses);
   visitor.choice_or(auto_volumes, {"volume", "How a change of volume is resisted.", use.mesh},
                     solver.volume, volumes);
@@ -157,9 +163,12 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
   const Use centred = of_steps(central, "with `integrator = \"central_difference\"`");
   const Use stepped = of_steps(about(integrator).explicit_steps,
                                "with an explicit `integrator`, as \"central_difference\"");
-  visitor.choice({"start", "How the first time step is made.", centred}, solver.start, starts);
-  visitor.choice({"damping", "The velocity with which drag and dashpots act in a step.", centred},
-                 solver.damping, damping_velocities);
+  visitor.choice(of_the_paper({"start", "How the first time step is made.", centred}), solver.start,
+                 starts);
+  visitor.choice(
+      of_the_paper(
+          {"damping", "The velocity with which drag and dashpots act in a step.", centred}),
+      solver.damping, damping_velocities);
   visitor.quantity_or("auto", {"time_step", "`auto`: the output interval.", use.mesh},
                       solver.time_step, unit::ms, above(0));
   visitor.count_or("auto",
@@ -168,16 +177,18 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
                     "of implicit methods, requires.",
                     use.mesh},
                    solver.substeps, between(1, 1e8));
-  visitor.flag({"allow_unstable", "Run an explicit step above the stability limit, to see it fail.",
-                stepped},
-               solver.allow_unstable);
-  visitor.count_or("all",
-                   {"rings",
+  visitor.flag(
+      of_the_paper({"allow_unstable",
+                    "Run an explicit step above the stability limit, to see it fail.", stepped}),
+      solver.allow_unstable);
+  visitor.count_or(
+      "all",
+      of_the_paper({"rings",
                     "Rings of nodes around the contact that move; other nodes are fixed. This is "
                     "the paper's method, for comparisons with it: a frame of the whole mesh takes "
                     "less time by `modal`.",
-                    use.pressed_mesh},
-                   solver.rings, between(1, 1000));
+                    use.pressed_mesh}),
+      solver.rings, between(1, 1000));
   visitor.count_or(
       "auto",
       {"modes",
@@ -207,9 +218,9 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
   visitor.flag({"report", "A page with the result, figures and findings, `report.html`."},
                output.report);
-  visitor.choice({"paper",
-                  "Which figure of Chen 2007 the page sets its results beside.",
-                  {output.report, "with `report`", Use::Otherwise::note}},
+  visitor.choice(of_the_paper({"paper",
+                               "Which figure of Chen 2007 the page sets its results beside.",
+                               {output.report, "with `report`", Use::Otherwise::note}}),
                  output.paper, papers);
   visitor.flag({"pdf", "Figures as PDF too."}, output.pdf);
   visitor.flag({"png", "Figures and pressure maps as PNG too."}, output.png);
@@ -225,7 +236,8 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
                  output.tissue_at, meshes_at);
   visitor.flag({"picture", "A picture of the scene."}, output.picture);
   visitor.numbers_by_name(
-      {"display_scale", "Factors by case, for figures and an extra fit; CSV stays in newtons."},
+      of_the_paper({"display_scale",
+                    "Factors by case, for figures and an extra fit; CSV stays in newtons."}),
       output.display_scale, above(0));
 }
 

@@ -91,7 +91,7 @@ void require_tissue(const Scenario& scenario, const material::Tissue& material,
     if (tissue.viscosity == law && !given && !from)
       throw InputError(place_of(document, "tissue.material"),
                        "`" + tissue.material + "` has no `" + key + "`; give `tissue." + key +
-                           "`, or set another `tissue.viscosity`");
+                           "`, or write `tissue.viscosity = \"none\"`");
   };
   using tissue::Viscosity;
   require(Viscosity::kelvin_voigt, tissue.retardation_time, material.retardation_time,

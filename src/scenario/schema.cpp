@@ -177,13 +177,15 @@ std::string without_numbers(const std::string& key) {
   return joined(words, ".");
 }
 
-// The table in the heading of a section of the manual: `tissue.mesh` from "`[tissue.mesh]`".
-std::string table_of(const std::string& section) {
+// The path of the key of a row, below the heading of its section, such as "`[tissue.mesh]`"; rows
+// below a heading without a table have whole paths.
+std::string path_of(const std::string& row, const std::string& section) {
+  const std::string name = row.substr(3, row.find('`', 3) - 3);
   const auto quotes = split(section, '`');
-  if (quotes.size() < 2) return "";
+  if (quotes.size() < 2) return name;
   std::string table = quotes[1];
   std::erase_if(table, [](char c) { return c == '[' || c == ']'; });
-  return table;
+  return table + "." + name;
 }
 
 // What the key `kind` of a table may be, from the titles of the manual's sections, such as
@@ -220,9 +222,7 @@ std::string keys_that_name(const std::string& word) {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
       const std::size_t end = at + word.size();
       if ((at > 0 && letter(text[at - 1])) || (end < text.size() && letter(text[end]))) continue;
-      const std::string name = line.substr(3, line.find('`', 3) - 3);
-      const std::string table = table_of(section);
-      found += "  " + (table.empty() ? name : table + "." + name) + ": " + trimmed(cells[4]) + "\n";
+      found += "  " + path_of(line, section) + ": " + trimmed(cells[4]) + "\n";
       break;
     }
   }
@@ -240,20 +240,21 @@ std::string meaning_of_key(const std::string& asked) {
   for (const std::string& line : split(manual(), '\n')) {
     if (line.starts_with("## ")) section = line.substr(3);
     if (!line.starts_with("| `")) continue;
-    const std::string name = line.substr(3, line.find('`', 3) - 3);
-    const std::string table = table_of(section);
-    const std::string path = table.empty() ? name : table + "." + name;
+    const std::string path = path_of(line, section);
+    const std::size_t dot = path.rfind('.');
+    const std::string name = path.substr(dot + 1);
+    const std::string table = dot == std::string::npos ? "" : path.substr(0, dot);
     known.insert(known.end(), {path, name, table});
     if (key != path && key != name && (key.empty() || key != table)) continue;
     const auto cells = split(line, '|');
     if (cells.size() < 6) {  // a word with its meaning, such as a design of `[sweep]`
-      found += section + ": `" + name + "`\n  " + trimmed(cells[2]) + "\n";
+      found += section + ": " + trimmed(cells[1]) + "\n  " + trimmed(cells[2]) + "\n";
       continue;
     }
     std::string value = trimmed(cells[2]);
     for (std::size_t at = value.find("<br>"); at != std::string::npos; at = value.find("<br>"))
       value.replace(at, 4, "\n           ");
-    found += section + ": `" + name + "`\n  value:   " + value +
+    found += section + ": " + trimmed(cells[1]) + "\n  value:   " + value +
              "\n  default: " + trimmed(cells[3]) + "\n  " + trimmed(cells[4]) + "\n";
   }
   if (!found.empty()) return found;

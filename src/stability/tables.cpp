@@ -85,26 +85,19 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
   constexpr auto folded = page::Page::Shown::folded;
   page.section("In words", page::paragraphs(more), folded);
   constexpr std::size_t most = 60;
-  const record::Table limits = limit_table(map), failures = failure_table(map);
-  const std::string of_limits = "Limits of the time step, measured and by theory";
-  const std::string of_failures = "Kinds of failure and whether they were seen";
-  page.section(
-      "Limits",
-      page::table_of_file(of_limits,
-                          page::columns_of(limits, {"integrator", "model", "damping", "axis",
-                                                    "value", "limit_us", "theory_us", "ratio"}),
-                          "stability.csv", most),
-      folded);
-  page.section(
-      "Failures",
-      page::table_of_file(of_failures,
-                          page::columns_of(failures, {"failure", "seen", "integrator", "setting",
-                                                      "setting_unit", "measured", "theory"}),
-                          "failures.csv", most),
-      folded);
-  page.section("Every column",
-               page::table_of_file(of_limits, limits, "stability.csv", most) +
-                   page::table_of_file(of_failures, failures, "failures.csv", most),
+  page.section("Limits",
+               page::table_of_file(
+                   "Limits of the time step, measured and by theory",
+                   page::columns_of(limit_table(map), {"integrator", "model", "damping", "axis",
+                                                       "value", "limit_us", "theory_us", "ratio"}),
+                   "stability.csv", most),
+               folded);
+  page.section("Failures",
+               page::table_of_file(
+                   "Kinds of failure and whether they were seen",
+                   page::columns_of(failure_table(map), {"failure", "seen", "integrator", "setting",
+                                                         "setting_unit", "measured", "theory"}),
+                   "failures.csv", most),
                folded);
   page.section("How it was made",
                page::making({.command = "palpate stability " + title + ".toml"}, {}, folder),

@@ -627,14 +627,14 @@ std::vector<std::string> draw_sweep(const SweepColumns& columns, const Sensitivi
 
 namespace {
 
-// `case 3 (Young's modulus 5 kPa)`, by the number in results.csv
+// `case 3 (Young's modulus = 5 kPa)`, by the number in results.csv
 std::string case_text(const SweepColumns& columns, std::size_t at) {
   std::string text;
   for (const FactorColumn& factor : columns.factors) {
     const std::string label = factor_label(factor.choice);
     const std::size_t unit = std::min(label.find(" ("), label.size());
     const double value = factor.values[at];
-    text += (text.empty() ? "" : ", ") + within_sentence(label.substr(0, unit)) + " " +
+    text += (text.empty() ? "" : ", ") + within_sentence(label.substr(0, unit)) + " = " +
             (factor.is_number() ? rounded_text(value, 4)
                                 : factor.words[static_cast<std::size_t>(value)]);
     if (unit < label.size()) text += " " + label.substr(unit + 2, label.size() - unit - 3);

@@ -102,8 +102,9 @@ TEST_F(CompareVerb, a_page_begins_with_the_results) {
       columns += ",peak_" + std::to_string(i) + "_N";
       values += ",1" + std::to_string(by);
     }
-    write_file(folder_ / side / "out/press/findings.csv",
-               "case,factorisations" + columns + "\nskin,1" + std::to_string(by) + values + "\n");
+    write_file(folder_ / side / "out/press/findings.csv", "case,model,stated_error,factorisations" +
+                                                              columns + "\nskin,layer,0.03,1" +
+                                                              std::to_string(by) + values + "\n");
     write_file(folder_ / side / "out/press/force_indentation.csv",
                "case,time_s,travel_mm,force_N\nskin,0,0,0\nskin,1,1,2" + end);
   };
@@ -119,6 +120,10 @@ TEST_F(CompareVerb, a_page_begins_with_the_results) {
       page.find("Force (N) against displacement (mm) in force_indentation.csv: the line is a, "
                 "the dashed one b."),
       std::string::npos);
+  EXPECT_NE(page.find("<p>Model in b: layer, with a stated error of about 3\u00a0%.</p>"),
+            std::string::npos);
+  EXPECT_NE(page.find("<p>The same in <code>findings.csv</code>: <code>case</code>, "),
+            std::string::npos);
   const std::size_t from = page.find("id=\"what-differs\""),
                     to = page.find("id=\"all-columns-that-differ\"");
   ASSERT_LT(from, to);

@@ -125,6 +125,8 @@ TEST_F(GoldenCheck, a_scenario_that_cannot_run_is_an_error_and_the_others_are_ch
                                     .program = "/usr/bin/python3"});
   EXPECT_TRUE(parsed.out.starts_with("mine/press.toml 1 0 1 0\nmine/press.toml|run|"))
       << parsed.out << parsed.err;
+  const Ended noted = golden({"check", "mine", "--annotations", "github"});
+  EXPECT_TRUE(says(noted, "::error file=mine/press.toml,title=")) << noted.err;
 }
 
 TEST_F(GoldenCheck, kept_results_are_replaced_only_where_told_and_not_by_machines) {

@@ -130,6 +130,25 @@ TEST_F(RunRefusals, a_write_that_fails_keeps_the_old_result) {
   EXPECT_TRUE(old_is_there());
 }
 
+// A case of more than 50 ms was kept before the map failed, and its folder stays.
+TEST_F(RunRefusals, a_write_that_fails_names_the_finished_cases) {
+  write_file(folder_ / "slow.toml",
+             "[tissue]\nshape = { kind = \"cuboid\", size = [\"30 mm\", \"30 mm\", \"15 mm\"] }\n"
+             "[solver]\nmodel = \"solid\"\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n"
+             "[output]\ninterval = \"1 s\"\n");
+  const Ended ended =
+      run_program({.arguments = {"run", "slow.toml"}, .folder = folder_.path(), .before = [] {
+                     const rlimit limit{16384, 16384};
+                     ::setrlimit(RLIMIT_FSIZE, &limit);
+                   }});
+  EXPECT_EQ(ended.code, 1);
+  const std::string words = "; the finished cases are in ";
+  const std::size_t at = ended.err.find(words);
+  ASSERT_NE(at, std::string::npos) << ended.err;
+  EXPECT_TRUE(fs::exists(folder_ / trimmed(ended.err.substr(at + words.size())) / "case_001"))
+      << ended.err;
+}
+
 // The same on a disk that is really full, where this machine lets us have one.
 TEST_F(RunRefusals, a_full_disk_keeps_the_old_result) {
   const std::string disk = (folder_ / "disk").string();

@@ -207,6 +207,40 @@ TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
   EXPECT_NE(ended_.err.find("\nIt took "), std::string::npos) << ended_.err;
 }
 
+// What was done to what, and in what the cases differ.
+TEST(RunResults, the_first_lines_say_slides_regions_platens_and_swept_keys) {
+  const TemporaryFolder folder;
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  const auto page = [&](const std::string& text, const std::string& more) {
+    write_file(folder / "one.toml",
+               text + "[output]\nfigures = false\ninterval = \"1 s\"\n" + more);
+    const Ended ended = palpate(folder.path(), {"run", "one.toml", "--force"});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return read_page(folder / "out/one/report.html");
+  };
+  const std::string slide =
+      "[tissue]\nmesh = { kind = \"tetgen\", nodes = 200 }\n[[region]]\nkind = \"sphere\"\n"
+      "centre = [\"30 mm\", \"30 mm\", \"15 mm\"]\nradius = \"8 mm\"\nmaterial = \"muscle\"\n"
+      "[finger]\nx = \"25 mm\"\n[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = \"indent\"\n"
+      "to = \"1 mm\"\n[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n";
+  const std::string alone = page(slide, "");
+  EXPECT_TRUE(has(alone, "nu 0.33; region 1: muscle, E 6 kPa; pressed 1 mm by a sphere")) << alone;
+  EXPECT_TRUE(has(alone, " mm, then slid by 6 mm; underside fixed"));
+  const std::string swept =
+      page(slide, "[sweep]\n\"region.1.young_modulus\" = [\"6 kPa\", \"60 kPa\"]\n");
+  EXPECT_TRUE(has(swept, "<p>Cases differ in region 1 Young&#39;s modulus: 6 kPa, 60 kPa.</p>"))
+      << swept;
+  EXPECT_FALSE(has(swept, "region 1: muscle, E 6 kPa")) << "it is not that of all cases";
+  EXPECT_TRUE(has(swept, ", then slid by 6 mm.</p>"));
+  const std::string squeezed = page(
+      "[tissue]\nbase = \"bonded\"\nmesh = { kind = \"mirrored\", cells = [2, 2, 2] }\n[solver]\n"
+      "model = \"coupled_springs\"\n[[step]]\nkind = \"compress\"\nplaten = \"bonded\"\n",
+      "");
+  EXPECT_TRUE(has(squeezed, "underside fixed (bonded base); upper platen bonded.")) << squeezed;
+}
+
 // As a person would: in its folder, line by line.
 TEST_F(OfAPress, is_repeated_by_the_commands_of_its_page) {
   const std::string commands = "cp scenario.toml press.toml\npalpate run press.toml";

@@ -40,6 +40,10 @@ TEST(Html, TablesHaveHeadingsAndFourDigits) {
         "<td data-column=\"force\" class=\"none\">–</td>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(table("n", {{"a", "b"}, {{"x", INFINITY}}}).html().find("inf"), std::string::npos);
+  const std::string known =
+      table("n", {{"a", "empty", "b"}, {{"x", {}, {}}, {"y", "", 2.0}, {"z", NAN, {}}}}).html();
+  EXPECT_EQ(known.find("empty"), std::string::npos) << "a column without values";
+  EXPECT_NE(known.find("<td data-column=\"b\" class=\"none\">–</td>"), std::string::npos);
   const record::Table long_one{{"n"}, {{1.0}, {2.0}, {3.0}}};
   const std::string cut = table_of_file("n", long_one, "n.csv", 2).html();
   EXPECT_NE(cut.find("The first 2 of 3 rows"), std::string::npos);

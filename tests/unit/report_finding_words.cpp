@@ -1,5 +1,5 @@
 // Every finding of docs/results.md has words on the page.
-#include "report/run_page.h"
+#include "report/finding_words.h"
 
 #include <gtest/gtest.h>
 

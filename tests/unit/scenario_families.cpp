@@ -225,7 +225,7 @@ TEST_F(Files, TablesThatCannotBeUsed) {
       "written `file.toml#name`");
   EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#gel\"\n"),
             "press.toml:5:12: `my.toml#gel` has no `retardation_time`; give "
-            "`tissue.retardation_time`, or set another `tissue.viscosity`");
+            "`tissue.retardation_time`, or write `tissue.viscosity = \"none\"`");
   EXPECT_EQ(said("[tissue]\nmaterial = \"bad.toml#gel\"\n"),
             "bad.toml:1:2: `gel` lacks `poisson_ratio`; add `poisson_ratio = ...`, or `{ value = "
             "..., source = \"...\" }`\n"

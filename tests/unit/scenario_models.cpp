@@ -103,7 +103,7 @@ TEST(ModelKeys, RefusalsNameTheKeyAndARemedy) {
        "`contact.viscosity = \"none\"`"},
   });
   expect_refused({{"[solver]\nmodel = \"layer\"\n",
-                   "press.toml:5:9: `layer` has no specimen to creep or relax; set `solver.model = "
+                   "press.toml:5:9: `layer` has no specimen between platens; set `solver.model = "
                    "\"mass_spring\"` or `\"coupled_springs\"`"}},
                  creep);
 }

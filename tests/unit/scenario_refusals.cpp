@@ -97,7 +97,7 @@ TEST(Refusals, KeysThatTheModelCannotHonour) {
             "press.toml:5:2: `contact` has no effect here: it is used only by steps with a finger "
             "(indent, hold, retract, slide); remove it or change that");
   EXPECT_EQ(refusal(creep + "[solver]\nmodel = \"hertz\"\n"),
-            "press.toml:4:9: `hertz` has no specimen to creep or relax; set `solver.model = "
+            "press.toml:4:9: `hertz` has no specimen between platens; set `solver.model = "
             "\"mass_spring\"` or `\"coupled_springs\"`");
 }
 
