@@ -400,12 +400,6 @@ geometry::TetMesh tetgen_shape(const geometry::Shape& shape,
 
 namespace {
 
-// An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
-double spacing_of(const geometry::Surface& surface) {
-  return std::sqrt(geometry::area(surface) /
-                   (0.433 * static_cast<double>(surface.triangles.size())));
-}
-
 // Whether the surface is finer than the mesh should be.
 bool too_fine(const geometry::Surface& surface, const Target& target) {
   return target.nodes > 0 ? static_cast<int>(surface.vertices.size()) >= target.nodes
@@ -437,9 +431,9 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
                      const Target& target, double time_limit) {
   FileMesh made;
   const std::size_t needles = count_needles(surface);
+  const double spacing = target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length;
   const auto remesh = [&] {
-    auto better =
-        remeshed(surface, target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length);
+    auto better = remeshed(surface, spacing);
     if (!better) return false;
     made.warning = told(surface, needles, *better);
     surface = std::move(better->surface);
@@ -464,7 +458,9 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
   const bool asked = too_fine(surface, target) || needles > 0;
   if (asked) (void)remesh();
   if (attempt() || (!asked && remesh() && attempt())) return made;
-  made.mesh = meshed({.edge_length = spacing_of(surface)});
+  if (made.warning.empty()) refuse_large(surface, spacing);
+  // Not so small that TetGen would split the surface's triangles, which needles make many.
+  made.mesh = meshed({.edge_length = std::max(spacing_of(surface), 0.5 * mean_edge(surface))});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);
   made.warning += (made.warning.empty() ? "" : "; ") + std::string("the mesh has ") +
