@@ -349,4 +349,14 @@ void refuse_large(const Surface& surface, double spacing) {
                        "program it comes from");
 }
 
+void refuse_needles(const Surface& surface) {
+  const std::size_t needles = count_needles(surface);
+  if (surface.triangles.size() >= few && 10 * needles >= surface.triangles.size())
+    throw KeyError("tissue.shape.file",
+                   std::to_string(needles) + " of the " + std::to_string(surface.triangles.size()) +
+                       " triangles of the surface are needles, on which a mesh would take many "
+                       "minutes, and even ones would miss its details or cut each other; remesh it "
+                       "in the program it comes from, with triangles of about equal sides");
+}
+
 }  // namespace palpate::meshing

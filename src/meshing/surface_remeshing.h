@@ -40,6 +40,10 @@ struct Remeshed {
 // remeshed() has found no other: with all of them a press takes many minutes.
 void refuse_large(const geometry::Surface& surface, double spacing);
 
+// The same for one of 2000 triangles or more of which a tenth are needles: TetGen takes minutes for
+// the fine mesh of a press on them, or crashes.
+void refuse_needles(const geometry::Surface& surface);
+
 // An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of
 // the requested spacing on a round body with a radius of more than its length is nearer than that,
 // so that a mesh of such cells does not show the difference.

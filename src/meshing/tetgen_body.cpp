@@ -354,13 +354,15 @@ geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target, 
     if (!(geometry::enclosed(part.surface).volume > 0.0))
       throw MeshError("a surface of the body is inside out; turn its triangles round");
   Search search(target, time_limit);
-  const double edge = mean_edge(body.parts.front().surface);
+  const geometry::Surface& outer = body.parts.front().surface;
   if (target.nodes == 0) {
-    // Triangles much coarser than the tetrahedra would keep TetGen from placing nodes near them.
+    // Triangles much coarser than the tetrahedra would keep TetGen from placing nodes near them;
+    // split needles would become a hundred times as many.
     const Triangles triangles =
-        edge > 2.0 * target.edge_length ? Triangles::split : Triangles::kept;
+        spacing_of(outer) > 2.0 * target.edge_length ? Triangles::split : Triangles::kept;
     return checked(body, search.mesh(body, volume_at(target.edge_length), triangles));
   }
+  const double edge = mean_edge(outer);
   const Miss miss = search.tune(body, volume_at(edge));
   // Where triangles are split, the size of the surface's triangles does not count.
   if (miss.nodes < -fair_miss)
@@ -459,8 +461,7 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
   if (asked) (void)remesh();
   if (attempt() || (!asked && remesh() && attempt())) return made;
   if (made.warning.empty()) refuse_large(surface, spacing);
-  // Not so small that TetGen would split the surface's triangles, which needles make many.
-  made.mesh = meshed({.edge_length = std::max(spacing_of(surface), 0.5 * mean_edge(surface))});
+  made.mesh = meshed({.edge_length = spacing_of(surface)});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);
   made.warning += (made.warning.empty() ? "" : "; ") + std::string("the mesh has ") +

@@ -123,7 +123,10 @@ class Mesher {
     } else {
       const geometry::Surface& given = order_.surface->surface();
       auto coarse = order_.coarser ? meshing::remeshed(given, spacing, 4.0) : std::nullopt;
-      if (!coarse) meshing::refuse_large(given, spacing);
+      if (!coarse) {
+        meshing::refuse_large(given, spacing);
+        if (order_.coarser) meshing::refuse_needles(given);
+      }
       body_.parts.push_back({coarse ? coarse->surface : given, 0});
       faces_ = body_.parts.front().surface;
       numbers_.assign(faces_.triangles.size(), of_file);

@@ -283,6 +283,28 @@ TEST(Needles, OfASurfaceWithASharpEdgeAreRemeshed) {
   EXPECT_LE(even->distance, 4.0 * remeshing_limit(needles, 8e-3));
 }
 
+// Split by TetGen, those of a sensor's housing had become 215 000 nodes.
+TEST(Needles, AreNotSplitForAMeshOfTheirSize) {
+  const Surface needles = strips(128, 0.030, 0.080);
+  const geometry::Body body{{{needles, 0}}};
+  const geometry::TetMesh mesh =
+      tetgen_body(body, {.edge_length = spacing_of(needles)}, time_given);
+  EXPECT_EQ(geometry::outer_surface(mesh).surface.triangles.size(), needles.triangles.size());
+}
+
+TEST(Needles, OfManyTrianglesAreRefusedAtTheirKey) {
+  EXPECT_NO_THROW(refuse_needles(strips(400, 0.015, 0.080)));
+  EXPECT_NO_THROW(refuse_needles(sampled(geometry::Ellipsoid{}, 8e-3)));
+  try {
+    refuse_needles(strips(600, 0.015, 0.080));
+    FAIL() << "not refused";
+  } catch (const KeyError& error) {
+    EXPECT_EQ(error.key(), "tissue.shape.file");
+    EXPECT_EQ(std::string(error.what()).find("2400 of the 2400 triangles of the surface are "), 0u)
+        << error.what();
+  }
+}
+
 TEST(Crossings, OfACoarserSurfaceAreReplaced) {
   Surface ball = sampled(geometry::Ellipsoid{Vec3::Constant(0.06)}, 4e-3);
   const double whole = volume(ball);
