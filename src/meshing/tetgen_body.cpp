@@ -461,7 +461,12 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
   if (asked) (void)remesh();
   if (attempt() || (!asked && remesh() && attempt())) return made;
   if (made.warning.empty()) refuse_large(surface, spacing);
-  made.mesh = meshed({.edge_length = spacing_of(surface)});
+  try {
+    made.mesh = meshed({.edge_length = spacing_of(surface)});
+  } catch (const MeshError&) {
+    refuse_needles(surface);  // another number of nodes would not help
+    throw;
+  }
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);
   made.warning += (made.warning.empty() ? "" : "; ") + std::string("the mesh has ") +
