@@ -22,6 +22,7 @@
 #include "meshing/mesh_check.h"
 #include "meshing/mesh_files.h"
 #include "meshing/surface_files.h"
+#include "meshing/surface_remeshing.h"
 #include "meshing/surface_repair.h"
 #include "meshing/tetgen_body.h"
 #include "record/csv.h"
@@ -162,10 +163,8 @@ geometry::TetMesh mesh_of_surface(const Convert& command, const Talk& talk) {
       throw InputError({out, 0, 0}, "is there already; give another name, or `--force`");
     meshing::write_surface(out, surface, unit_of(command.unit));
   }
-  // An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
   if (target.nodes == 0 && target.edge_length == 0.0)
-    target.edge_length = std::sqrt(geometry::area(surface) /
-                                   (0.433 * static_cast<double>(surface.triangles.size())));
+    target.edge_length = meshing::spacing_of(surface);
   set_doing({"tetrahedra", 1, 2});
   auto [mesh, warning] = meshing::tetgen_file(std::move(surface), {}, target, meshing_time);
   if (!warning.empty()) talk.say("note: " + warning);

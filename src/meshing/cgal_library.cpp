@@ -285,22 +285,24 @@ Mending::Hole fill(Mesh& mesh, Mesh::Halfedge_index border) {
   return hole;
 }
 
-// Faces that cut others of the same part: of parts that cut each other one is chosen.
-std::set<Mesh::Face_index> crossing(Mesh& mesh) {
+enum class Cut { any, own_part };
+
+// Faces that cut others, or others of the same part.
+std::set<Mesh::Face_index> crossing(Mesh& mesh, Cut cut) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   processing::self_intersections(mesh, std::back_inserter(pairs));
   const Parts parts = numbered_parts(mesh).first;
   std::set<Mesh::Face_index> faces;
   for (const auto& [one, other] : pairs)
-    if (parts[one] == parts[other]) faces.insert({one, other});
+    if (cut == Cut::any || parts[one] == parts[other]) faces.insert({one, other});
   return faces;
 }
 
 // Replaces triangles that cross, with more and more of their neighbours, by those of filled holes.
-void replace_crossing(Mesh& mesh) {
+void replace_crossing(Mesh& mesh, Cut cut) {
   constexpr int most_rounds = 7;
   for (int round = 0; round < most_rounds; ++round) {
-    std::set<Mesh::Face_index> faces = crossing(mesh);
+    std::set<Mesh::Face_index> faces = crossing(mesh, cut);
     if (faces.empty()) return;
     for (int ring = 0; ring < round; ++ring) {
       const std::set<Mesh::Face_index> inner = faces;
@@ -342,20 +344,19 @@ Mending mended(const geometry::Surface& surface) {
   processing::extract_boundary_cycles(mesh, std::back_inserter(borders));
   for (const auto border : borders) made.holes.push_back(fill(mesh, border));
   made.area = processing::area(mesh);
-  for (const auto face : crossing(mesh)) made.crossing += processing::face_area(face, mesh);
-  replace_crossing(mesh);
+  // Of parts that cut each other one is chosen.
+  for (const auto face : crossing(mesh, Cut::own_part))
+    made.crossing += processing::face_area(face, mesh);
+  replace_crossing(mesh, Cut::own_part);
   if (CGAL::is_closed(mesh)) processing::orient(mesh);
-  mesh.collect_garbage();
-  for (const auto vertex : mesh.vertices())
-    made.surface.vertices.push_back(place_of(mesh.point(vertex)));
-  for (const auto face : mesh.faces()) {
-    std::array<int, 3> triangle{};
-    std::size_t corner = 0;
-    for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face)))
-      triangle[corner++] = static_cast<int>(vertex.idx());
-    made.surface.triangles.push_back(triangle);
-  }
+  made.surface = taken(mesh);
   return made;
+}
+
+geometry::Surface uncrossed(const geometry::Surface& surface) {
+  Mesh mesh = filled(surface);
+  replace_crossing(mesh, Cut::any);
+  return taken(mesh);
 }
 
 }  // namespace palpate::meshing::cgal_library

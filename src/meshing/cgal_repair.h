@@ -27,4 +27,8 @@ struct Mending {
 // crash or take long: call it in a child process only. The same argument gives the same bits.
 [[nodiscard]] Mending mended(const geometry::Surface& surface);
 
+// A closed surface whose triangles that cut others, with some of their neighbours, are replaced by
+// those of filled holes; the caller checks it, and calls it in a child process only.
+[[nodiscard]] geometry::Surface uncrossed(const geometry::Surface& surface);
+
 }  // namespace palpate::meshing::cgal_library

@@ -11,6 +11,7 @@
 #include "geometry/box.h"
 #include "geometry/box_tree.h"
 #include "meshing/cgal_library.h"
+#include "meshing/cgal_repair.h"
 #include "meshing/child_bytes.h"
 #include "meshing/surface_repair.h"
 
@@ -35,9 +36,10 @@ constexpr double even_part = 0.4;
 // At an edge of less than five degrees even triangles of any size are longer than the body is
 // thick, and cut each other. Measured on wedges: 10 degrees take two tries, 6 take five, 4 have no
 // end. Surfaces with such an edge are meshed as they are, but for large ones, whose triangles
-// become shorter where they would cross.
+// become shorter where they would cross, and those of many triangles with needles.
 constexpr double folded_cosine = -0.9962;  // of the two normals
 constexpr std::size_t large = 20000;       // triangles
+constexpr std::size_t few = 2000;          // the same
 
 std::string packed(const Surface& surface) {
   std::string bytes;
@@ -117,12 +119,14 @@ class Attempt {
 
   [[nodiscard]] double longest() const { return std::ranges::max(spacing_); }
 
-  // Even triangles that are collapsed, all to the first spacing.
+  // Even triangles that are collapsed, all to the first spacing. A few that cross are replaced.
   [[nodiscard]] std::optional<Surface> even() const {
     return in_child([&] {
       const double edge = spacing_.front();
       const Surface even = cgal_library::even(surface_, even_part * edge, crease_degrees);
-      return cgal_library::collapsed(even, std::vector(even.vertices.size(), edge));
+      Surface found = cgal_library::collapsed(even, std::vector(even.vertices.size(), edge));
+      return cgal_library::self_intersections(found).empty() ? found
+                                                             : cgal_library::uncrossed(found);
     });
   }
 
@@ -240,6 +244,11 @@ std::size_t count_needles(const Surface& surface) {
   return count;
 }
 
+double spacing_of(const Surface& surface) {
+  return std::sqrt(geometry::area(surface) /
+                   (0.433 * static_cast<double>(surface.triangles.size())));
+}
+
 double cell_for(const Surface& surface, int nodes) {
   // Nodes on the surface have 0.866 h^2 each, and nodes inside, half an edge below it, 0.7 h^3.
   const double area = geometry::area(surface);
@@ -259,11 +268,11 @@ double remeshing_limit(const Surface& surface, double spacing) {
 std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {
   const std::size_t given = surface.triangles.size();
   const bool sharp = has_sharp_edge(surface);
-  if (sharp && given < large) return std::nullopt;
+  bool uneven = count_needles(surface) > 0 && (!sharp || (given >= few && given < large));
+  if (sharp && !uneven && given < large) return std::nullopt;
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
   const geometry::BoxTree original(surface);
-  const bool uneven = !sharp && count_needles(surface) > 0;
   Attempt attempt(surface, original, spacing);
   std::optional<Surface> first;  // edges of the spacing that was asked for
   bool over = false;             // shorter spacings would have too many triangles
@@ -301,20 +310,54 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
     return std::nullopt;
   };
   constexpr int even_tries = 3;
-  if (sharp) return found_in(16, true, given);
-  const std::size_t most = uneven ? std::max<std::size_t>(2 * given, 2000) : given;
+  constexpr int tries_by_place = 16;
+  const std::size_t most = uneven ? std::max(2 * given, few) : given;
+  const auto even = [&] {
+    if (uneven || given < large || spacing_of(surface) > spacing) return std::optional<Remeshed>();
+    uneven = true;
+    over = false;
+    attempt.restore(spacing);
+    return found_in(even_tries, false, most);
+  };
+  if (sharp && !uneven) {
+    auto found = found_in(tries_by_place, true, given);
+    return found ? std::move(found) : even();
+  }
   if (auto found = found_in(even_tries, false, most)) return found;
-  if (over) return std::nullopt;
+  if (over) return even();
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
   if (looser <= 1.0) {
     attempt.restore(spacing);
-    if (auto found = found_in(16, true, given)) return found;
+    if (auto found = found_in(tries_by_place, true, given)) return found;
   }
   over = false;
   attempt.restore(spacing);
   for (int i = 0; i < even_tries; ++i) attempt.shorten();
-  return found_in(5, false, most);
+  // With more triangles than given, springs are better on these.
+  const bool fewer = uneven && looser <= 1.0 && given >= few;
+  auto found = found_in(uneven ? 12 : 5, false, fewer ? given : most);
+  return found ? std::move(found) : even();
+}
+
+void refuse_large(const Surface& surface, double spacing) {
+  constexpr std::size_t most = 40000;  // triangles; with as many a press takes minutes and 5 GB
+  if (surface.triangles.size() >= most && spacing_of(surface) < spacing)
+    throw KeyError("tissue.shape.file",
+                   "the " + std::to_string(surface.triangles.size()) +
+                       " triangles of the surface are too many for a mesh, and fewer of them would "
+                       "miss its details or cut each other; make it coarser, or smooth it, in the "
+                       "program it comes from");
+}
+
+void refuse_needles(const Surface& surface) {
+  const std::size_t needles = count_needles(surface);
+  if (surface.triangles.size() >= few && 10 * needles >= surface.triangles.size())
+    throw KeyError("tissue.shape.file",
+                   std::to_string(needles) + " of the " + std::to_string(surface.triangles.size()) +
+                       " triangles of the surface are needles, on which a mesh would take many "
+                       "minutes, and even ones would miss its details or cut each other; remesh it "
+                       "in the program it comes from, with triangles of about equal sides");
 }
 
 }  // namespace palpate::meshing

@@ -11,6 +11,10 @@ namespace palpate::meshing {
 // tetrahedra on it limit the stable time step.
 [[nodiscard]] std::size_t count_needles(const geometry::Surface& surface);
 
+// The edge length (m) with which even triangles would be as many. An equilateral triangle of edge l
+// has an area of sqrt(3) / 4 l^2.
+[[nodiscard]] double spacing_of(const geometry::Surface& surface);
+
 // The edge length (m) with which a mesh of the body inside `surface` has about `nodes` nodes.
 [[nodiscard]] double cell_for(const geometry::Surface& surface, int nodes);
 
@@ -24,12 +28,20 @@ struct Remeshed {
 // `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
 // Empty if no such surface with fewer triangles is found, or, of a surface with needles, with less
 // than twice as many (or 2000). Where an edge of the body is sharper than five degrees, only 20 000
-// triangles and more become fewer: edges are shorter around details alone, and needles may stay.
+// triangles and more, whose edges are shorter around details alone and may stay needles, become
+// fewer, and 2000 with needles.
 // `surface` has passed check_closed(). The same arguments give the same bits. For faces that are
 // rounded and curved afterwards distance and volume may differ `looser` times as much; above 1,
 // needles may stay.
 [[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing,
                                                double looser = 1.0);
+
+// Throws KeyError for a surface of 40 000 triangles or more that are finer than `spacing` (m): after
+// remeshed() has found no other, with all of them a press takes many minutes.
+void refuse_large(const geometry::Surface& surface, double spacing);
+
+// The same for one of 2000 triangles or more of which a tenth are needles, where TetGen has failed.
+void refuse_needles(const geometry::Surface& surface);
 
 // An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of
 // the requested spacing on a round body with a radius of more than its length is nearer than that,

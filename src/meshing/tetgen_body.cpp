@@ -354,13 +354,15 @@ geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target, 
     if (!(geometry::enclosed(part.surface).volume > 0.0))
       throw MeshError("a surface of the body is inside out; turn its triangles round");
   Search search(target, time_limit);
-  const double edge = mean_edge(body.parts.front().surface);
+  const geometry::Surface& outer = body.parts.front().surface;
   if (target.nodes == 0) {
-    // Triangles much coarser than the tetrahedra would keep TetGen from placing nodes near them.
+    // Triangles much coarser than the tetrahedra would keep TetGen from placing nodes near them;
+    // split needles would become a hundred times as many.
     const Triangles triangles =
-        edge > 2.0 * target.edge_length ? Triangles::split : Triangles::kept;
+        spacing_of(outer) > 2.0 * target.edge_length ? Triangles::split : Triangles::kept;
     return checked(body, search.mesh(body, volume_at(target.edge_length), triangles));
   }
+  const double edge = mean_edge(outer);
   const Miss miss = search.tune(body, volume_at(edge));
   // Where triangles are split, the size of the surface's triangles does not count.
   if (miss.nodes < -fair_miss)
@@ -400,12 +402,6 @@ geometry::TetMesh tetgen_shape(const geometry::Shape& shape,
 
 namespace {
 
-// An equilateral triangle of edge l has an area of sqrt(3) / 4 l^2.
-double spacing_of(const geometry::Surface& surface) {
-  return std::sqrt(geometry::area(surface) /
-                   (0.433 * static_cast<double>(surface.triangles.size())));
-}
-
 // Whether the surface is finer than the mesh should be.
 bool too_fine(const geometry::Surface& surface, const Target& target) {
   return target.nodes > 0 ? static_cast<int>(surface.vertices.size()) >= target.nodes
@@ -437,9 +433,9 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
                      const Target& target, double time_limit) {
   FileMesh made;
   const std::size_t needles = count_needles(surface);
+  const double spacing = target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length;
   const auto remesh = [&] {
-    auto better =
-        remeshed(surface, target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length);
+    auto better = remeshed(surface, spacing);
     if (!better) return false;
     made.warning = told(surface, needles, *better);
     surface = std::move(better->surface);
@@ -464,7 +460,13 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
   const bool asked = too_fine(surface, target) || needles > 0;
   if (asked) (void)remesh();
   if (attempt() || (!asked && remesh() && attempt())) return made;
-  made.mesh = meshed({.edge_length = spacing_of(surface)});
+  if (made.warning.empty()) refuse_large(surface, spacing);
+  try {
+    made.mesh = meshed({.edge_length = spacing_of(surface)});
+  } catch (const MeshError&) {
+    refuse_needles(surface);  // another number of nodes would not help
+    throw;
+  }
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);
   made.warning += (made.warning.empty() ? "" : "; ") + std::string("the mesh has ") +
