@@ -36,8 +36,8 @@ struct Remeshed {
 [[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing,
                                                double looser = 1.0);
 
-// Throws KeyError for a surface of 40 000 triangles or more that are finer than `spacing` (m): after
-// remeshed() has found no other, with all of them a press takes many minutes.
+// Throws KeyError for a surface of 40 000 triangles or more that are finer than `spacing` (m):
+// after remeshed() has found no other, with all of them a press takes many minutes.
 void refuse_large(const geometry::Surface& surface, double spacing);
 
 // The same for one of 2000 triangles or more of which a tenth are needles, where TetGen has failed.
