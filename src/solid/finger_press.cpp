@@ -362,7 +362,10 @@ bool FingerPress::reach(double travel) {
   while (tissue_.end == End::open && tissue_.reached < std::max(deepest, travel)) {
     double next = tissue_.reached > 0.0 ? 2.0 * tissue_.reached : 0.25 * deepest;
     if (tissue_.reached >= deepest) next = std::min(next, 1.5 * tissue_.reached);
-    if (in_steps_) next = (std::round(steps * tissue_.reached / deepest) + 1.0) / steps * deepest;
+    if (in_steps_ && tissue_.reached < deepest)
+      next = (std::round(steps * tissue_.reached / deepest) + 1.0) / steps * deepest;
+    else if (in_steps_)  // a force may need many times the displacement that Hertz's law has
+      next = tissue_.reached + std::min(0.25 * order_.wall, tissue_.reached / 16.0);
     take(next, go(next));
     if (!in_steps_ && (lost || !is_power_law() || tissue_.points.empty())) {
       begin(true);
