@@ -379,7 +379,7 @@ std::optional<std::string> Consistent::step(const StepTo& to) {
 // below the group's middle, or where its deepest contact is.
 contact::Patch Consistent::joint_patch(const Touch& touch) {
   const SphereContact& deepest = *touch.deepest();
-  contact::Patch joint = outer_surface->below_middle(touch.finger).value_or(deepest.patch);
+  contact::Patch joint = outer_surface->below_middle().value_or(deepest.patch);
   // a^2 = R h, and R is n^(1/3) times a sphere's radius.
   const double wider = std::pow(static_cast<double>(part->scene->finger.centres.size()), 1.0 / 6.0);
   joint.a = wider * deepest.patch.a;

@@ -161,20 +161,19 @@ KeptList<SphereContact>& SurfaceContacts::detect(const Vec3& finger,
       contact.patch.turned = closest_point.turned;
     }
   }
-  return found_;
-}
-
-std::optional<contact::Patch> SurfaceContacts::below_middle(const Vec3& finger) {
-  const double reach = scene_->finger.sphere_radius + scene_->finger.whole.radius;
-  detector_.find(finger, reach, moved_, feet_);
+  below_middle_.reset();
+  if (!presses_as_one(*scene_)) return found_;
+  detector_.find(finger, reach + scene_->finger.whole.radius, moved_, feet_);
   const auto nearest = std::min_element(
       feet_.begin(), feet_.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
-  if (nearest == feet_.end()) return std::nullopt;
-  return contact::Patch{.at = nearest->at,
-                        .position = nearest->position,
-                        .normal = nearest->normal,
-                        .beyond = nearest->beyond,
-                        .turned = nearest->turned};
+  if (nearest != feet_.end()) {
+    below_middle_ = contact::Patch{.at = nearest->at,
+                                   .position = nearest->position,
+                                   .normal = nearest->normal,
+                                   .beyond = nearest->beyond,
+                                   .turned = nearest->turned};
+  }
+  return found_;
 }
 
 std::optional<std::string> SurfaceContacts::give_law(SphereContact& contact) {

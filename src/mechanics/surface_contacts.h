@@ -60,10 +60,6 @@ class SurfaceContacts {
   KeptList<SphereContact>& detect(const Vec3& finger, const integrate::Vector* displacement,
                                   double beyond = 0.0);
 
-  // The place of the surface nearest to the middle of several spheres, with no radius of its own;
-  // nothing where there is none below it.
-  [[nodiscard]] std::optional<contact::Patch> below_middle(const Vec3& finger);
-
   // Finds the contacts at the detected places and their forces. On entry `touch` contains the
   // contacts of the previous step, for first guesses and the stretch of the friction. solve(touch)
   // calls settle(); `beyond` is that of rub(). Returns a sentence if the equations have no solution
@@ -88,6 +84,9 @@ class SurfaceContacts {
 
   // Allocates the memory, also of `touch`, for up to four contacts per sphere.
   void make_room(Touch& touch);
+  // Where several spheres stand for one, the place nearest to their middle at the last detect(),
+  // with no radius of its own; nothing where there is none below it.
+  [[nodiscard]] const std::optional<contact::Patch>& below_middle() const { return below_middle_; }
   [[nodiscard]] std::size_t most_contacts() const { return 4 * scene_->finger.centres.size(); }
   [[nodiscard]] const Eigen::MatrixXd& compliance() const { return compliance_; }
 
@@ -113,6 +112,7 @@ class SurfaceContacts {
   std::vector<Vec3> moved_;  // m, displacement of every vertex; empty at rest
   std::vector<geometry::SmoothSurface::ClosestPoint> feet_;
   KeptList<SphereContact> found_;
+  std::optional<contact::Patch> below_middle_;
   // One per contact, while the contact equations are solved:
   std::vector<contact::PointLaw> laws_;
   std::vector<double> approaches_;  // m

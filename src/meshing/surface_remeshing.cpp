@@ -340,24 +340,4 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   return found ? std::move(found) : even();
 }
 
-void refuse_large(const Surface& surface, double spacing) {
-  constexpr std::size_t most = 40000;  // triangles; with as many a press takes minutes and 5 GB
-  if (surface.triangles.size() >= most && spacing_of(surface) < spacing)
-    throw KeyError("tissue.shape.file",
-                   "the " + std::to_string(surface.triangles.size()) +
-                       " triangles of the surface are too many for a mesh, and fewer of them would "
-                       "miss its details or cut each other; make it coarser, or smooth it, in the "
-                       "program it comes from");
-}
-
-void refuse_needles(const Surface& surface) {
-  const std::size_t needles = count_needles(surface);
-  if (surface.triangles.size() >= few && 10 * needles >= surface.triangles.size())
-    throw KeyError("tissue.shape.file",
-                   std::to_string(needles) + " of the " + std::to_string(surface.triangles.size()) +
-                       " triangles of the surface are needles, on which a mesh would take many "
-                       "minutes, and even ones would miss its details or cut each other; remesh it "
-                       "in the program it comes from, with triangles of about equal sides");
-}
-
 }  // namespace palpate::meshing

@@ -36,13 +36,6 @@ struct Remeshed {
 [[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing,
                                                double looser = 1.0);
 
-// Throws KeyError for a surface of 40 000 triangles or more that are finer than `spacing` (m):
-// after remeshed() has found no other, with all of them a press takes many minutes.
-void refuse_large(const geometry::Surface& surface, double spacing);
-
-// The same for one of 2000 triangles or more of which a tenth are needles, where TetGen has failed.
-void refuse_needles(const geometry::Surface& surface);
-
 // An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of
 // the requested spacing on a round body with a radius of more than its length is nearer than that,
 // so that a mesh of such cells does not show the difference.

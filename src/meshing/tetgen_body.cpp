@@ -460,13 +460,7 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
   const bool asked = too_fine(surface, target) || needles > 0;
   if (asked) (void)remesh();
   if (attempt() || (!asked && remesh() && attempt())) return made;
-  if (made.warning.empty()) refuse_large(surface, spacing);
-  try {
-    made.mesh = meshed({.edge_length = spacing_of(surface)});
-  } catch (const MeshError&) {
-    refuse_needles(surface);  // another number of nodes would not help
-    throw;
-  }
+  made.mesh = meshed({.edge_length = spacing_of(surface)});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);
   made.warning += (made.warning.empty() ? "" : "; ") + std::string("the mesh has ") +

@@ -13,6 +13,7 @@
 #include "contact/passivity.h"
 #include "contact/patch.h"
 #include "geometry/curvature.h"
+#include "mechanics/contacts.h"
 #include "run/answer.h"
 #include "scenario/integrators.h"
 #include "scene/estimates.h"
@@ -130,6 +131,13 @@ class Findings {
           "at the middle of the body's box there is a gap, or the rim of a hollow, so that the "
           "finger presses the top at " +
           scene::place_text(scenario, touch.position) + "; set `finger.at` for another place");
+    const bool flat = !touch.known() || (!touch.curved() && !touch.tilted());
+    if (!flat && (scenario.finger.replaced > 0 || mechanics::presses_as_one(scene_)))
+      warning(
+          "several spheres press a flat like the one that they stand for, and this surface less: " +
+          std::string(scenario.finger.replaced > 0
+                          ? "`solid` has pressed the one; `coupled_springs` presses each of them"
+                          : "each of them was pressed; `solid` presses the one"));
     if (!scenario.uniform())
       for (const std::string& sentence : scene::disproportions(scenario, touch, expected_))
         warning(sentence);

@@ -190,8 +190,6 @@ SizeEffect coarsest_press(scenario::Resolved trial, double way, const std::strin
     auto* mesh = std::get_if<scenario::Tetgen>(&trial.tissue.mesh);
     try {
       return press(trial, way, folder, touch, shapes);
-    } catch (const KeyError&) {
-      throw;
     } catch (const MeshError&) {
       if (mesh == nullptr || mesh->nodes >= most_nodes) throw;
       mesh->nodes *= 2;

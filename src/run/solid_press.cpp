@@ -84,8 +84,6 @@ void SolidPress::make() {
       presses_.clear();
       for (std::size_t i = 0; i < per_radius_.size(); ++i) presses_.push_back(made(i));
       return;
-    } catch (const KeyError&) {
-      throw;  // no other mesh is better
     } catch (const MeshError&) {
       if (!simpler()) throw;
     }
@@ -102,8 +100,6 @@ std::unique_ptr<solid::FingerPress> SolidPress::made(std::size_t mesh) {
   for (int tries = 1;; ++tries) {
     try {
       return std::make_unique<solid::FingerPress>(order(number));
-    } catch (const KeyError&) {
-      throw;
     } catch (const MeshError&) {
       if (tries == most_tries) throw;
       number *= finer;

@@ -123,7 +123,6 @@ class Mesher {
     } else {
       const geometry::Surface& given = order_.surface->surface();
       auto coarse = order_.coarser ? meshing::remeshed(given, spacing, 4.0) : std::nullopt;
-      if (!coarse) meshing::refuse_large(given, spacing);
       body_.parts.push_back({coarse ? coarse->surface : given, 0});
       faces_ = body_.parts.front().surface;
       numbers_.assign(faces_.triangles.size(), of_file);

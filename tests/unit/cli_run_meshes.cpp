@@ -360,6 +360,24 @@ TEST_F(RunMeshes, spheres_that_stand_for_one_have_its_force_on_a_layer) {
   }
 }
 
+TEST_F(RunMeshes, spheres_that_stand_for_one_are_told_apart_from_it_on_a_curve) {
+  const auto said = [&](const std::string& shape, const char* model) {
+    const Ended ended = run(
+        "[tissue]\nmaterial = \"skin\"\nshape = { " + shape +
+        " }\nviscosity = \"none\"\n[finger]\n"
+        "radius = \"8 mm\"\nspheres = 4\n[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n[output]\n"
+        "figures = false\n[solver]\nmodel = \"" +
+        model + "\"\n");
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    return ended.out + ended.err;
+  };
+  const std::string round = "kind = \"cylinder\", radius = \"30 mm\", length = \"60 mm\"";
+  EXPECT_NE(said(round, "solid").find("`solid` has pressed the one"), std::string::npos);
+  EXPECT_NE(said(round, "coupled_springs").find("each of them was pressed"), std::string::npos);
+  const std::string flat = "size = [\"60 mm\", \"60 mm\", \"12 mm\"]";
+  EXPECT_EQ(said(flat, "solid").find("several spheres"), std::string::npos);
+}
+
 TEST_F(RunMeshes, auto_is_hertz_on_a_half_space) {
   const std::string half =
       "[tissue]\nshape = { kind = \"half_space\" }\n[[step]]\nkind = "

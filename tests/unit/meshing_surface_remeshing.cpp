@@ -292,19 +292,6 @@ TEST(Needles, AreNotSplitForAMeshOfTheirSize) {
   EXPECT_EQ(geometry::outer_surface(mesh).surface.triangles.size(), needles.triangles.size());
 }
 
-TEST(Needles, OfManyTrianglesAreRefusedAtTheirKey) {
-  EXPECT_NO_THROW(refuse_needles(strips(400, 0.015, 0.080)));
-  EXPECT_NO_THROW(refuse_needles(sampled(geometry::Ellipsoid{}, 8e-3)));
-  try {
-    refuse_needles(strips(600, 0.015, 0.080));
-    FAIL() << "not refused";
-  } catch (const KeyError& error) {
-    EXPECT_EQ(error.key(), "tissue.shape.file");
-    EXPECT_EQ(std::string(error.what()).find("2400 of the 2400 triangles of the surface are "), 0u)
-        << error.what();
-  }
-}
-
 TEST(Crossings, OfACoarserSurfaceAreReplaced) {
   Surface ball = sampled(geometry::Ellipsoid{Vec3::Constant(0.06)}, 4e-3);
   const double whole = volume(ball);
@@ -314,37 +301,6 @@ TEST(Crossings, OfACoarserSurfaceAreReplaced) {
   const Surface made = cgal_library::uncrossed(ball);
   check_closed(made, "made");
   EXPECT_NEAR(volume(made) / whole, 1.0, 0.01);
-}
-
-// Each triangle of a ball carries a spike that is longer than a coarser surface may be off: TetGen
-// would have got all triangles.
-TEST(FineSurface, OfSpikesIsRefusedAtItsKey) {
-  Surface spikes = sampled(geometry::Ellipsoid{Vec3::Constant(0.06)}, 1.1e-3);
-  const std::vector<std::array<int, 3>> triangles = std::exchange(spikes.triangles, {});
-  for (const auto& [a, b, c] : triangles) {
-    const Vec3 middle = (spikes.vertices[as_index(a)] + spikes.vertices[as_index(b)] +
-                         spikes.vertices[as_index(c)]) /
-                        3.0;
-    const int tip = static_cast<int>(spikes.vertices.size());
-    spikes.vertices.emplace_back(middle + 1.5e-3 * (middle - Vec3::Constant(0.03)).normalized());
-    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}})
-      spikes.triangles.push_back({from, to, tip});
-  }
-  check_closed(spikes, "spikes");
-  ASSERT_GT(spikes.triangles.size(), 40000u);
-  try {
-    (void)tetgen_file(spikes, {}, {.nodes = 728}, time_given);
-    FAIL() << "the surface was meshed";
-  } catch (const KeyError& error) {
-    EXPECT_EQ(error.key(), "tissue.shape.file");
-    EXPECT_EQ(std::string(error.what()),
-              "the " + std::to_string(spikes.triangles.size()) +
-                  " triangles of the surface are too many for a mesh, and fewer of them would miss "
-                  "its details or cut each other; make it coarser, or smooth it, in the program it "
-                  "comes from");
-  }
-  EXPECT_NO_THROW(refuse_large(spikes, 0.1e-3));  // wanted finer still
-  EXPECT_NO_THROW(refuse_large(sampled(geometry::Ellipsoid{}, 8e-3), 16e-3));
 }
 
 // A single edge sharper than five degrees had kept all triangles of a scan.
