@@ -268,7 +268,7 @@ double remeshing_limit(const Surface& surface, double spacing) {
 std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {
   const std::size_t given = surface.triangles.size();
   const bool sharp = has_sharp_edge(surface);
-  bool uneven = count_needles(surface) > 0 && (!sharp || (given >= few && given < large));
+  const bool uneven = count_needles(surface) > 0 && (!sharp || (given >= few && given < large));
   if (sharp && !uneven && given < large) return std::nullopt;
   const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
@@ -311,20 +311,10 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   };
   constexpr int even_tries = 3;
   constexpr int tries_by_place = 16;
+  if (sharp && !uneven) return found_in(tries_by_place, true, given);
   const std::size_t most = uneven ? std::max(2 * given, few) : given;
-  const auto even = [&] {
-    if (uneven || given < large || spacing_of(surface) > spacing) return std::optional<Remeshed>();
-    uneven = true;
-    over = false;
-    attempt.restore(spacing);
-    return found_in(even_tries, false, most);
-  };
-  if (sharp && !uneven) {
-    auto found = found_in(tries_by_place, true, given);
-    return found ? std::move(found) : even();
-  }
   if (auto found = found_in(even_tries, false, most)) return found;
-  if (over) return even();
+  if (over) return std::nullopt;
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
   if (looser <= 1.0) {
@@ -334,10 +324,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   over = false;
   attempt.restore(spacing);
   for (int i = 0; i < even_tries; ++i) attempt.shorten();
-  // With more triangles than given, springs are better on these.
-  const bool fewer = uneven && looser <= 1.0 && given >= few;
-  auto found = found_in(uneven ? 12 : 5, false, fewer ? given : most);
-  return found ? std::move(found) : even();
+  return found_in(5, false, most);
 }
 
 }  // namespace palpate::meshing
