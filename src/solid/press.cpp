@@ -243,8 +243,17 @@ namespace {
 constexpr double stiff = 100.0;     // penalty over E / h
 constexpr double last_step = 3e-4;  // of the travel: Newton's, the next is a sixth of it or less
 constexpr double longest = 0.5;     // of the size: a step's largest change of displacement
+// Of the contact's force, by that step. A wall that bends bears little: within the displacement
+// above, its force may be twice too large.
+constexpr double last_change = 5e-3;
 constexpr int most_steps = 40;
 constexpr int most_halvings = 5;
+
+Vec3 sum_of(std::span<const Met> met) {
+  Vec3 sum = Vec3::Zero();
+  for (const Met& one : met) sum += one.force;
+  return sum;
+}
 
 }  // namespace
 
@@ -401,6 +410,7 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
     const double least = elements_.assemble(u, force, stiffness_);
     if (!(least > -1.0)) return std::nullopt;
     contact_.add(u, indenters, i == 0 ? std::span(half) : none, force, stiffness_, met);
+    const Vec3 before = sum_of(met);
     for (int d = 0; d < static_cast<int>(u.size()); ++d)
       if (const int unknown = elements_.unknown(d); unknown >= 0) right[unknown] = -force[d];
     if (!solve(right, solution)) return std::nullopt;
@@ -418,13 +428,15 @@ std::optional<Answer> Press::settle(const Vec3& finger, bool extrapolate) {
                               [&](const Indenter& one) { return walls_cross(u, one.pole); });
     if (walls_meet_) return std::nullopt;
     contact_.add(u, indenters, none, force, stiffness_, met);
+    const Vec3 after = sum_of(met);
+    if ((after - before).norm() > last_change * after.norm()) continue;
     Answer answer;
+    answer.force = -body_.copies * after;
     double work = 0.0;
     double moment = 0.0;
     for (std::size_t k = 0; k < met.size(); ++k) {
       const Met& one = met[k];
       answer.forces.push_back(-body_.copies * one.force.z());
-      answer.force -= body_.copies * one.force;
       work += body_.copies * one.work;
       moment += body_.copies * one.moment;
       answer.area += body_.copies * one.area;
