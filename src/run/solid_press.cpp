@@ -164,7 +164,7 @@ solid::FingerOrder SolidPress::order(double elements) const {
     order.share = std::clamp(1.0 - scene::finger_share_on_body(*scene_), least, 1.0 - least);
   }
   order.deepest = deepest_;
-  order.wall = wall_;
+  order.in_steps = deepest_ > wall_;  // from about a travel of its thickness on a wall buckles
   order.touch = {given.first_touch, given.touched};
   order.beside = [this, &finger](const Vec3& place) -> std::optional<solid::Touch> {
     const auto found = scene::touch_beside(this->body(), finger, place);

@@ -69,13 +69,13 @@ class SolidPress {
   std::vector<std::unique_ptr<solid::FingerPress>> presses_;  // coarsest mesh first
   std::vector<double> asked_, per_radius_;  // elements in the contact radius: wanted, and taken
   double deepest_ = 0.0;                    // m, travel
-  double width_ = 1.0;      // of the contact across a sharp edge, over that on a flat
-  double finer_ = 1.0;      // elements than asked for, in a thin wall or a skin
-  double wall_ = HUGE_VAL;  // m, as in FingerOrder
-  bool on_skin_ = false;    // a stiff and thin one on softer tissue
+  double width_ = 1.0;    // of the contact across a sharp edge, over that on a flat
+  double finer_ = 1.0;    // elements than asked for, in a thin wall or a skin
+  bool on_skin_ = false;  // a stiff and thin one on softer tissue
   solid::Moment now_;
-  double error_ = 0.0;  // of the last force, a fraction of it
-  double worst_ = 0.0;  // of the forces of a wall that buckles, so far
+  double error_ = 0.0;      // of the last force, a fraction of it
+  double wall_ = HUGE_VAL;  // m, thickness under the finger where nothing holds the other side
+  double worst_ = 0.0;      // of the forces of a wall that buckles, so far
 };
 
 }  // namespace palpate::run

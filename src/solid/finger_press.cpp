@@ -112,7 +112,7 @@ void FingerPress::make() {
   ball_ = {};
   knots_.clear();
   has_knots_ = false;
-  begin(may_buckle());
+  begin(order_.in_steps);
 }
 
 FingerPress::Mismatch FingerPress::mismatch(double travel) {
@@ -165,7 +165,6 @@ void FingerPress::take_share(double share) {
 void FingerPress::begin(bool in_steps) {
   in_steps_ = in_steps;
   tissue_ = {};
-  if (in_steps) press_->solve_by_factors();
   press_->begin(order_.touch.finger);
 }
 
@@ -338,7 +337,8 @@ std::string FingerPress::end_text() const {
 
 // Points at a quarter and half of the order's travel and there, and beyond it by up to half more at
 // a time: the curve does not depend on what was asked first. Where it is no power law, it is found
-// again in even steps. Where there is no equilibrium, the last point is as deep as one was found.
+// again in steps of a sixteenth, after two shorter ones. Where there is no equilibrium, the last
+// point is as deep as one was found.
 bool FingerPress::reach(double travel) {
   // Below this the finger touches nothing: the wall has jumped to its other side.
   constexpr double bearing = 1e-8;  // of E, radius and travel
@@ -356,16 +356,19 @@ bool FingerPress::reach(double travel) {
       tissue_.points.push_back(
           {at - answer->lost, answer->normal(), moment_of(*answer, answer->normal())});
   };
-  // Longer steps end at other equilibria of the wall.
-  const double steps = std::max(16.0, std::ceil(4.0 * order_.deepest / order_.wall));
   const double deepest = order_.share * order_.deepest;
   while (tissue_.end == End::open && tissue_.reached < std::max(deepest, travel)) {
     double next = tissue_.reached > 0.0 ? 2.0 * tissue_.reached : 0.25 * deepest;
     if (tissue_.reached >= deepest) next = std::min(next, 1.5 * tissue_.reached);
-    if (in_steps_ && tissue_.reached < deepest)
-      next = (std::round(steps * tissue_.reached / deepest) + 1.0) / steps * deepest;
-    else if (in_steps_)  // a force may need many times the displacement that Hertz's law has
-      next = tissue_.reached + std::min(0.25 * order_.wall, tissue_.reached / 16.0);
+    if (in_steps_) {
+      constexpr double steps = 16.0;
+      const double step = deepest / steps;
+      const double after = (std::round(tissue_.reached / step) + 1.0) * step;
+      // A force may need many times the displacement that Hertz's law has.
+      const double beyond = (1.0 + 1.0 / steps) * tissue_.reached;
+      next = tissue_.reached > 0.0 ? std::min(2.0 * tissue_.reached, std::max(after, beyond))
+                                   : 0.25 * step;
+    }
     take(next, go(next));
     if (!in_steps_ && (lost || !is_power_law() || tissue_.points.empty())) {
       begin(true);
@@ -397,8 +400,7 @@ bool FingerPress::is_power_law() const {
 }
 
 std::optional<std::pair<double, double>> FingerPress::snap() const {
-  // Coarse elements have falls of up to a tenth that fine ones have not: counted on a cap.
-  constexpr double least = 0.2;
+  constexpr double least = 0.02;  // more than what Newton's steps leave
   const std::vector<Point>& points = tissue_.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::size_t end = i;

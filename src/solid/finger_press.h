@@ -31,11 +31,11 @@ struct FingerOrder {
   std::optional<tissue::Isotropic> ball = {};  // an elastic finger's; of one sphere
   double share = 1.0;    // a first guess of the tissue's share of the gap; 1 if the finger is rigid
   double deepest = 0.0;  // m, travel of the finger
+  bool in_steps = false;  // from the beginning, where a wall may buckle
   Touch touch;
   std::array<double, 2> curvatures{};  // 1/m, of the body there along x and y, above 0 if convex
   bool smooth = false;     // whether these are known, and a small contact of one sphere is Hertz's
   bool shallower = false;  // the press is a knot of a deeper one
-  double wall = HUGE_VAL;  // m, the thickness under the finger where nothing holds the other side
   // The touch with the finger at a place beside it (m); nothing where it passes beside the body.
   std::function<std::optional<Touch>(const Vec3& place)> beside = {};
   std::string part = {};  // of a longer way, for the progress of the run
@@ -55,8 +55,8 @@ struct Moment {
 };
 
 // Nothing depends on time, so that a press is one curve of force over travel: Newton's method finds
-// its points at a quarter and half of the deepest travel and there, or where a wall may buckle at
-// in short steps, and the logarithm of the force is a parabola of that of the travel between them.
+// its points at a quarter and half of the deepest travel and there, or where a wall buckles in
+// short steps, and the logarithm of the force is a parabola of that of the travel between them.
 // Below the first point the contact becomes Hertz's on the tissue at the surface.
 // An elastic finger is a ball of its own radius: each body takes its share of the curvature of the
 // gap between them, ball and tissue are pressed by the rigid surface between their shares, and
@@ -82,8 +82,8 @@ class FingerPress {
   void take_share(double share);  // of another mesh. Throws MeshError.
   [[nodiscard]] double share() const { return order_.share; }
   // Whether a wall gives way, as far as the curve has been found, so that it is found in steps.
-  [[nodiscard]] bool buckles() const { return in_steps_ && !(may_buckle() && is_power_law()); }
-  // The displacements (m) between which the force first falls by a fifth or more, as far as the
+  [[nodiscard]] bool buckles() const { return in_steps_ && !(order_.in_steps && is_power_law()); }
+  // The displacements (m) between which the force first falls by 2 % or more, as far as the
   // curve has been found: the wall snaps through.
   [[nodiscard]] std::optional<std::pair<double, double>> snap() const;
 
@@ -135,8 +135,6 @@ class FingerPress {
   }
   void make();  // the presses, for the order at hand
   void begin(bool in_steps);
-  // From about a travel of its thickness on a wall buckles.
-  [[nodiscard]] bool may_buckle() const { return order_.deepest > order_.wall; }
   void press_ball(double force);
   [[nodiscard]] double upright() const;
   // The tissue's part of a travel with which both bodies have one force. Forces of one point go on

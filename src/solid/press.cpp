@@ -330,8 +330,7 @@ bool Press::solve(const Vector& right, Vector& x) {
   }
   const int before = factorisations_;
   if (!factor()) return false;
-  const bool alone = factorisations_ == before + 1;  // without a share of the linear stiffness
-  near_ = alone && !by_factors_;
+  near_ = factorisations_ == before + 1;  // without a share of the linear stiffness
   factors_.solve(right, x);
   return true;
 }

@@ -147,9 +147,6 @@ class Press {
   void set_finger(std::vector<Indenter> indenters) { indenters_ = std::move(indenters); }
   // Puts the finger at a place (m) where it touches nothing, and the body at rest.
   void begin(const Vec3& finger);
-  // From now on every step is solved by factors of its own, which tell whether a stiffness is
-  // positive definite: for walls that buckle.
-  void solve_by_factors() { by_factors_ = true; }
 
   // Moves the finger's point to `finger` (m). Nothing if no equilibrium is found on the way, or if
   // walls of a hollow would pass through each other there; the state is then that of reached().
@@ -193,7 +190,6 @@ class Press {
   State now_, before_;
   bool has_before_ = false;
   int factorisations_ = 0;
-  bool by_factors_ = false;
   bool walls_meet_ = false;
   bool near_ = false;  // whether factors_ are those of a stiffness near the present one
   GradientVectors vectors_;

@@ -306,7 +306,7 @@ TEST(Shell, BucklesAsCalculixHasIt) {
   for (std::size_t i = 1; i <= 3; ++i)
     for (const record::CaseRecord* record : {&deep, &less}) {
       ASSERT_NEAR(record->contact.at(i).travel, 0.5e-3 * static_cast<double>(i), 1e-12);
-      EXPECT_NEAR(record->contact.at(i).contact_force, witness[i - 1], 0.2 * witness[i - 1]) << i;
+      EXPECT_NEAR(record->contact.at(i).contact_force, witness[i - 1], 0.1 * witness[i - 1]) << i;
     }
 }
 

@@ -122,20 +122,14 @@ TEST(SolidPress, CompressesABlockAsTheLawSays) {
   EXPECT_NEAR(found->normal(), want, 1e-4 * want);  // the penalty's depth is uneven at the rims
 }
 
-// Old factors save others and change no equilibrium.
+// Each of Newton's steps had its own before; where they lead to is that of
+// ForcesDoNotDependOnTheWay.
 TEST(SolidPress, OneFactorisationServesSeveralSteps) {
-  const auto pressed = [](bool by_factors) {
-    Press press(block(15e-3, {6, 6, 6}, 4.0, {10e3, 0.45}));
-    if (by_factors) press.solve_by_factors();
-    press.set_finger({Indenter::sphere(Vec3(0.0, 0.0, 25e-3), 10e-3)});
-    press.begin(Vec3::Zero());
-    const auto found = press.go(Vec3(0.0, 0.0, -1e-3));
-    return std::pair(found ? found->normal() : NAN, press.factorisations());
-  };
-  const auto [force, few] = pressed(false);
-  const auto [want, many] = pressed(true);
-  EXPECT_NEAR(force, want, 1e-4 * want);
-  EXPECT_LE(2 * few, many);
+  Press press(block(15e-3, {6, 6, 6}, 4.0, {10e3, 0.45}));
+  press.set_finger({Indenter::sphere(Vec3(0.0, 0.0, 25e-3), 10e-3)});
+  press.begin(Vec3::Zero());
+  ASSERT_TRUE(press.go(Vec3(0.0, 0.0, -1e-3)));
+  EXPECT_LE(press.factorisations(), 1);
 }
 
 // Between nu = 0.499 and 0.4999 the force changes by little, and Newton's steps do not stall.
