@@ -211,14 +211,13 @@ std::optional<std::string> SolidPress::find(const Way& way, mechanics::Touch& to
   // The meshes are made for the deepest travel, and for a width on edges; their elements are larger
   // beside smaller and narrower contacts.
   error_ = best.force > 0.0 ? best.error / best.force : 0.0;
-  // Elements that are wider than a skin are as good on two meshes as others on one.
-  if (on_skin_ && presses_.size() < 3) error_ = std::max(error_, solid::error_of_one_mesh);
-  // Meshes on which a wall buckles at other displacements agree here and there by luck, and do not
-  // converge with the square of their size: their largest difference on the way is stated.
-  if (presses_.back()->buckles() && best.force > 0.0) {
-    const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
-    error_ = worst_ = std::max({worst_, error_, (*most - *least) / best.force});
-  }
+  // Elements that are wider than a skin, and those of a wall that buckles, which do not converge
+  // with the square of their size, are as good on two meshes as others on one.
+  const bool buckles = presses_.back()->buckles();
+  if ((on_skin_ || buckles) && presses_.size() < 3)
+    error_ = std::max(error_, solid::error_of_one_mesh);
+  if (buckles && forces.size() > 1 && best.force > 0.0)
+    error_ = std::max(error_, std::abs(forces.back() - forces.end()[-2]) / best.force);
   error_ *= std::max(1.0, solid::most_narrowed / width_);
   if (touch.travel > 0.0) error_ *= std::max(1.0, deepest_ / touch.travel);
   error_ += now_.excess;  // the share is that of the deepest travel

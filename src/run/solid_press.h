@@ -75,7 +75,6 @@ class SolidPress {
   solid::Moment now_;
   double error_ = 0.0;      // of the last force, a fraction of it
   double wall_ = HUGE_VAL;  // m, thickness under the finger where nothing holds the other side
-  double worst_ = 0.0;      // of the forces of a wall that buckles, so far
 };
 
 }  // namespace palpate::run
