@@ -468,7 +468,10 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                  "deep tissue and by more on a thin layer"});
   visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
                    unit::density, above(0));
-  visitor.choice({"viscosity", "The viscous law of the tissue."}, tissue.viscosity, viscosities);
+  visitor.choice({"viscosity",
+                  "The viscous law of the tissue; left out, a material without `retardation_time` "
+                  "is elastic."},
+                 tissue.viscosity, viscosities);
   const auto with = [&](tissue::Viscosity law, const char* when) {
     return Use{tissue.viscosity == law, when};
   };
