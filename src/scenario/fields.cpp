@@ -469,8 +469,8 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
                    unit::density, above(0));
   visitor.choice({"viscosity",
-                  "The viscous law of the tissue; left out, a material without `retardation_time` "
-                  "is elastic."},
+                  "The viscous law of the tissue. A material without `retardation_time` is elastic "
+                  "unless something asks for viscosity."},
                  tissue.viscosity, viscosities);
   const auto with = [&](tissue::Viscosity law, const char* when) {
     return Use{tissue.viscosity == law, when};

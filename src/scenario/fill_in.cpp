@@ -80,9 +80,9 @@ bool gives_viscosity(const Node& document) {
   return tissue != nullptr && tissue->value.find("viscosity") != nullptr;
 }
 
-// Leaves out the default viscous law where the material has no time for it and nothing asks for
-// viscosity. Throws InputError if neither the scenario nor its material has a property that is
-// required.
+// Makes the tissue elastic where its material has no time for the default viscous law and nothing
+// asks for viscosity. Throws InputError if neither the scenario nor its material has a property
+// that is required.
 void require_tissue(Scenario& scenario, const material::Tissue& material, const Node& document) {
   Tissue& tissue = scenario.tissue;
   if (tissue.poisson_ratio.value_or(material.poisson_ratio.value) >= 0.5)
