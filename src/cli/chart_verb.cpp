@@ -17,6 +17,7 @@
 #include "page/page.h"
 #include "record/csv.h"
 #include "report/results.h"
+#include "scenario/tested.h"
 
 namespace palpate::cli {
 namespace {
@@ -126,9 +127,14 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
       sentences.push_back(line.substr(3) + ":");
     else if (line.ends_with('.') && !line.starts_with("- "))
       sentences.push_back(line);
-  if (charts.size() == 1 && !sentences.empty())  // the reference is less than the answer
-    std::rotate(sentences.begin(), sentences.begin() + 1, sentences.end());
-  const std::size_t first = several ? sentences.size() : std::min<std::size_t>(sentences.size(), 1);
+  const std::size_t first = several ? sentences.size() : std::min<std::size_t>(sentences.size(), 2);
+  if (const std::string again = "): "; charts.size() == 1 && first == 2) {
+    std::swap(sentences[0], sentences[1]);              // the reference is less than the result
+    const std::size_t said = sentences[0].find(again);  // in the headline, up to the settings
+    if (sentences[0].starts_with("Within") && said != std::string::npos)
+      sentences[0].replace(0, said + again.size(), "Its settings: ");
+  }
+  page.answer({joined(scenario::tested(family.cases.front(), family.design.keys()), "; ")});
   page.answer({sentences.begin(), sentences.begin() + static_cast<std::ptrdiff_t>(first)});
   page.figures(page::all_figures(folder, [](const std::string&) {
     return "Error against cost of every configuration; the line joins those that no "

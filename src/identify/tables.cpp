@@ -11,6 +11,7 @@
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
 #include "scenario/integrators.h"
+#include "scenario/tested.h"
 
 namespace palpate::identify {
 
@@ -357,7 +358,11 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
     const auto [known, its_interval] = estimate_texts(found.combinations.front());
     page.headline(known, its_interval);
   }
+  std::vector<std::string> unknown;
+  for (const identify::Identified& one : found.unknowns) unknown.push_back(one.unknown.name());
   page.answer(lines);
+  if (pairs.size() == 1)  // what the unknowns depend on
+    page.answer({joined(scenario::tested(pairs.front().family->cases.front(), unknown), "; ")});
   page.figures(page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;
   const record::Table table = identified_table(found);

@@ -75,7 +75,7 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
     if (map.longest_step)
       page.headline(rounded_text(1e6 * *map.longest_step, 4) + " µs",
                     "longest safe step of central differences");
-    page.answer({more.front()});
+    page.answer({more.front(), map.tested});
     more.erase(more.begin());
   }
   page.figures(page::all_figures(folder, [](const std::string&) {
