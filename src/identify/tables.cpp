@@ -62,6 +62,26 @@ std::string change(double moved, const Identified& one) {
   return (number > 0.0 ? "+" : "") + rounded_text(number, 2) + (unit.empty() ? "" : " " + unit);
 }
 
+// An estimate in words: `12.3 kPa` and `(95 %: 11 to 13)`. Without an interval where it is not
+// separately identifiable.
+struct EstimateTexts {
+  std::string value;
+  std::string interval;
+};
+EstimateTexts estimate_texts(const Identification& found, const Identified& one) {
+  if (one.inseparable) return {"not determined by itself", ""};
+  return {with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()),
+          "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
+              (one.by_profile ? ", by profile)" : ")") +
+              (one.at_bound ? "  on the edge of its range" : "")};
+}
+
+// The same of what is determined of unknowns that are not: `E / (1 - nu^2) = 66.9 kPa`.
+EstimateTexts estimate_texts(const Combination& one) {
+  return {one.text + " = " + with_unit(one.estimate, one.unit),
+          "95 % " + rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4)};
+}
+
 std::string combination_sentence(const Identification& found, const Combination& one) {
   std::vector<std::string> names;
   for (const std::size_t i : one.of) names.push_back("`" + found.unknowns[i].unknown.name() + "`");
@@ -142,19 +162,6 @@ record::Table correlation_table(const Identification& found) {
   return table;
 }
 
-record::Table residual_table(const Identification& found) {
-  const CurveWords& words = words_of(found.kind);
-  const std::string y = words.y_column;
-  const std::string unit = *words.y.symbol == '\0' ? "" : std::string("_") + words.y.symbol;
-  record::Table table;
-  table.columns = {words.x_column, "measured" + unit, "model" + unit, "residual" + unit};
-  for (std::size_t i = 0; i < found.x.size(); ++i)
-    table.rows.push_back({words.x.from_si(found.x[i]), words.y.from_si(found.measured[i]),
-                          words.y.from_si(found.model[i]),
-                          words.y.from_si(found.measured[i] - found.model[i])});
-  return table;
-}
-
 record::Table profile_table(const Identification& found) {
   record::Table table;
   table.columns = {"unknown", "unit", "value", "delta", "threshold"};
@@ -165,19 +172,6 @@ record::Table profile_table(const Identification& found) {
                           unknown.shown(point.value), point.delta, found.threshold});
   }
   return table;
-}
-
-EstimateTexts estimate_texts(const Identification& found, const Identified& one) {
-  if (one.inseparable) return {"not determined by itself", ""};
-  return {with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()),
-          "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
-              (one.by_profile ? ", by profile)" : ")") +
-              (one.at_bound ? "  on the edge of its range" : "")};
-}
-
-EstimateTexts estimate_texts(const Combination& one) {
-  return {one.text + " = " + with_unit(one.estimate, one.unit),
-          "95 % " + rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4)};
 }
 
 std::vector<std::string> identified_sentences(const Identification& found) {
@@ -341,6 +335,20 @@ std::string command_of(const std::vector<std::string>& argv, std::span<const Pai
     if (!idle) text += " " + shown_word(file_of(word));
   }
   return text;
+}
+
+// x, measured, model, residual, in the units of the curve.
+record::Table residual_table(const Identification& found) {
+  const CurveWords& words = words_of(found.kind);
+  const std::string y = words.y_column;
+  const std::string unit = *words.y.symbol == '\0' ? "" : std::string("_") + words.y.symbol;
+  record::Table table;
+  table.columns = {words.x_column, "measured" + unit, "model" + unit, "residual" + unit};
+  for (std::size_t i = 0; i < found.x.size(); ++i)
+    table.rows.push_back({words.x.from_si(found.x[i]), words.y.from_si(found.measured[i]),
+                          words.y.from_si(found.model[i]),
+                          words.y.from_si(found.measured[i] - found.model[i])});
+  return table;
 }
 
 // The page of an identification: what was found, how well it fits, and what it depends on.

@@ -85,7 +85,7 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .5rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
-  .wide { overflow: visible; } .wide table { font-size: .78rem; break-inside: avoid; } figure svg { max-height: 19cm; } .beside svg { max-height: 13cm; }
+  .wide { overflow: visible; } .wide table { font-size: .78rem; break-inside: avoid; } figure svg { max-height: 22cm; } .beside svg { max-height: 13cm; }
   h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { margin-top: .3rem; }
   tbody tr:first-child { break-before: avoid; } summary { list-style: none; break-after: avoid; }
   details::details-content { content-visibility: visible; height: auto; }
