@@ -174,8 +174,7 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
   page.section("How it was made",
                page::making({.command = "palpate chart " + family.name + ".toml",
                              .note = "Costs are times of the machine that measured them: only "
-                                     "the errors repeat."},
-                            {}, folder),
+                                     "the errors repeat."}),
                page::Page::Shown::folded);
   page::write(std::move(page), folder);
 }

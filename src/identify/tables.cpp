@@ -373,19 +373,16 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
     page.answer({joined(scenario::tested(pairs.front().family->cases.front(), unknown), "; ")});
   page.figures(page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;
-  const record::Table table = identified_table(found);
-  page.section("Estimates",
-               page::table_of_file(
-                   "Estimates with 95 % intervals",
-                   page::columns_of(table, {"unknown", "estimate", "unit", "ci95_low", "ci95_high",
+  page.section(
+      "Estimates",
+      page::table_of_file("Estimates with 95 % intervals",
+                          page::columns_of(identified_table(found),
+                                           {"unknown", "estimate", "unit", "ci95_low", "ci95_high",
                                             "std_error", "identifiable", "at_bound"}),
-                   "identified.csv", most) +
-                   page::table_of_file("Correlation of the estimates", correlation_table(found),
-                                       "correlation.csv", most));
+                          "identified.csv", most) +
+          page::table_of_file("Correlation of the estimates", correlation_table(found),
+                              "correlation.csv", most));
   constexpr auto folded = page::Page::Shown::folded;
-  page.section("Every column",
-               page::table_of_file("Estimates and both intervals", table, "identified.csv", most),
-               folded);
   std::vector<std::string> notes = found.notes;
   notes.insert(notes.end(), found.warnings.begin(), found.warnings.end());
   page.section("Notes", page::paragraphs(notes));
@@ -401,7 +398,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
                              .note = "It runs where the files below lie. Here, `palpate run "
                                      "scenario" +
                                      suffix_of(found, 0) + ".toml` computes the fitted curve."},
-                            inputs, folder),
+                            inputs),
                folded);
   page::write(std::move(page), folder);
 }

@@ -597,7 +597,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
                     .note = live ? "A live run follows its device, so that this command repeats "
                                    "the loading history and not the motion of the device."
                                  : "How long it took stands in run.json."},
-                   inputs, folder),
+                   inputs),
       folded);
   page::write(std::move(page), folder);
 }

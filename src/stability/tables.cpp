@@ -99,8 +99,7 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
                                                          "setting_unit", "measured", "theory"}),
                    "failures.csv", most),
                folded);
-  page.section("How it was made",
-               page::making({.command = "palpate stability " + title + ".toml"}, {}, folder),
+  page.section("How it was made", page::making({.command = "palpate stability " + title + ".toml"}),
                folded);
   page::write(std::move(page), folder);
   return folder.put(WholeFolder::State::complete, warnings);

@@ -732,7 +732,7 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   page.section("Model and what is neglected",
                page::paragraphs(lines) + page::paragraphs({shown.totals}), folded);
   page.section("Scenario", page::folded("The scenario as written", shown.scenario), folded);
-  page.section("How it was made", page::making({.command = shown.command}, {}, folder), folded);
+  page.section("How it was made", page::making({.command = shown.command}), folded);
   page::write(std::move(page), folder);
 }
 
