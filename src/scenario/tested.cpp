@@ -102,7 +102,7 @@ std::string step_text(const Step& step) {
 }
 
 // The first press with its finger, and what follows it, where that is not longer than a sentence.
-std::string press_text(const Case& one, const Keys& varied, const Touched& touched) {
+std::string pressed_text(const Case& one, const Keys& varied, const Touched& touched) {
   const std::vector<Step>& steps = one.scenario.steps;
   const auto presses = [](const Step& step) { return std::holds_alternative<Indent>(step); };
   const auto first = std::ranges::find_if(steps, presses);
@@ -133,7 +133,7 @@ std::vector<std::string> tested(const Case& one, const std::vector<std::string>&
     parts.push_back(shape_text(one.scenario.tissue.shape));
   if (common(varied, {"region"})) parts.push_back(regions_text(one));
   if (!one.scenario.uniform())
-    parts.push_back(press_text(one, varied, touched));
+    parts.push_back(pressed_text(one, varied, touched));
   else if (common(varied, {"step"}))
     for (const Step& step : one.scenario.steps) parts.push_back(step_text(step));
   std::erase(parts, "");

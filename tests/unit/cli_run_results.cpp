@@ -201,8 +201,8 @@ TEST_F(OfAPress, has_a_page_that_begins_with_the_force) {
   EXPECT_NE(headline.find(" N "), std::string::npos) << headline;
   EXPECT_TRUE(headline.ends_with(" %, not counting viscosity")) << headline;
   const std::string page = read_page(result() / "report.html");
-  EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm at x 30, y 30, z 30 mm; "
-                      "underside fixed (bonded base)."),
+  EXPECT_NE(page.find("pressed 2 mm by a sphere of radius 11 mm at x 30, y 30, z 30 mm, then "
+                      "held for 0.05 s; underside fixed (bonded base)."),
             std::string::npos);
   EXPECT_NE(ended_.err.find("\nIt took "), std::string::npos) << ended_.err;
 }
@@ -226,7 +226,10 @@ TEST(RunResults, the_first_lines_say_slides_regions_platens_and_swept_keys) {
       "[finger]\nx = \"25 mm\"\n[solver]\nmodel = \"mass_spring\"\n[[step]]\nkind = \"indent\"\n"
       "to = \"1 mm\"\n[[step]]\nkind = \"slide\"\nby = \"6 mm\"\n";
   const std::string alone = page(slide, "");
-  EXPECT_TRUE(has(alone, "nu 0.33; region 1: muscle, E 6 kPa; pressed 1 mm by a sphere")) << alone;
+  EXPECT_TRUE(has(alone,
+                  "nu 0.33; block of 60 x 60 x 30 mm; region 1: muscle, E 6 kPa; pressed 1 mm by "
+                  "a sphere"))
+      << alone;
   EXPECT_TRUE(has(alone, " mm, then slid by 6 mm; underside fixed"));
   const std::string swept =
       page(slide, "[sweep]\n\"region.1.young_modulus\" = [\"6 kPa\", \"60 kPa\"]\n");
@@ -238,7 +241,7 @@ TEST(RunResults, the_first_lines_say_slides_regions_platens_and_swept_keys) {
       "[tissue]\nbase = \"bonded\"\nmesh = { kind = \"mirrored\", cells = [2, 2, 2] }\n[solver]\n"
       "model = \"coupled_springs\"\n[[step]]\nkind = \"compress\"\nplaten = \"bonded\"\n",
       "");
-  EXPECT_TRUE(has(squeezed, "underside fixed (bonded base); upper platen bonded.")) << squeezed;
+  EXPECT_TRUE(has(squeezed, "; upper platen bonded; underside fixed (bonded base).")) << squeezed;
 }
 
 // As a person would: in its folder, line by line.
