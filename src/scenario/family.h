@@ -143,8 +143,8 @@ void complete(Scenario& scenario, const Node& document);
 // where its material has no time for the default viscous law and nothing asks for one. Adds to
 // `problems`, with places in the document. If there are problems already, only the materials are
 // looked up, so that no mistake is reported twice.
-[[nodiscard]] Materials find_materials(Scenario& scenario, const Node& document,
-                                       Sources& sources, std::vector<Problem>& problems);
+[[nodiscard]] Materials find_materials(Scenario& scenario, const Node& document, Sources& sources,
+                                       std::vector<Problem>& problems);
 
 // Checks that involve several keys: the order of steps, incompatible methods, depths beyond the
 // specimen. Adds to `problems`.
