@@ -22,7 +22,7 @@
 namespace palpate::cli {
 namespace {
 
-// A text that is equal for two calls if one may continue with the measurements of the other.
+// Fingerprint of a call, which continues with the measurements of one that has the same.
 std::string identity(const scenario::Family& family) {
   return program_identity() + "\n" + report::origin_of(family);
 }
