@@ -394,9 +394,20 @@ class Reader final : public FieldVisitor {
     return false;
   }
 
+  // "2` or `3" for 2.5: whole numbers in the range beside the one given.
+  static std::string whole_near(const Node& node, const Range& range) {
+    const bool usable = node.is_number() && std::isfinite(node.number);
+    const double below = usable ? std::floor(node.number) : 1.0;
+    const double above = usable ? std::ceil(node.number) : 1.0;
+    if (!range.holds(below) && !range.holds(above))
+      return number_text(range.holds(1.0) ? 1.0 : range.low);
+    if (!range.holds(below) || below == above) return number_text(above);
+    return number_text(below) + (range.holds(above) ? "` or `" + number_text(above) : "");
+  }
+
   bool read_count(const Key& key, const Node& node, int& value, const Range& range) {
     if (node.kind != Node::Kind::integer) {
-      wrong_type(key, node, "a whole number", "1");
+      wrong_type(key, node, "a whole number", whole_near(node, range));
       return false;
     }
     if (!within(key, node, node.number, range, nullptr)) return false;

@@ -17,11 +17,12 @@
 #include "page/page.h"
 #include "record/csv.h"
 #include "report/results.h"
+#include "scenario/tested.h"
 
 namespace palpate::cli {
 namespace {
 
-// A text that is equal for two calls if one may continue with the measurements of the other.
+// Fingerprint of a call, which continues with the measurements of one that has the same.
 std::string identity(const scenario::Family& family) {
   return program_identity() + "\n" + report::origin_of(family);
 }
@@ -126,9 +127,14 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
       sentences.push_back(line.substr(3) + ":");
     else if (line.ends_with('.') && !line.starts_with("- "))
       sentences.push_back(line);
-  if (charts.size() == 1 && !sentences.empty())  // the reference is less than the answer
-    std::rotate(sentences.begin(), sentences.begin() + 1, sentences.end());
-  const std::size_t first = several ? sentences.size() : std::min<std::size_t>(sentences.size(), 1);
+  const std::size_t first = several ? sentences.size() : std::min<std::size_t>(sentences.size(), 2);
+  if (const std::string again = "): "; charts.size() == 1 && first == 2) {
+    std::swap(sentences[0], sentences[1]);              // the reference is less than the result
+    const std::size_t said = sentences[0].find(again);  // in the headline, up to the settings
+    if (sentences[0].starts_with("Within") && said != std::string::npos)
+      sentences[0].replace(0, said + again.size(), "Its settings: ");
+  }
+  page.answer({joined(scenario::tested(family.cases.front(), family.design.keys()), "; ")});
   page.answer({sentences.begin(), sentences.begin() + static_cast<std::ptrdiff_t>(first)});
   page.figures(page::all_figures(folder, [](const std::string&) {
     return "Error against cost of every configuration; the line joins those that no "
@@ -168,8 +174,7 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
   page.section("How it was made",
                page::making({.command = "palpate chart " + family.name + ".toml",
                              .note = "Costs are times of the machine that measured them: only "
-                                     "the errors repeat."},
-                            {}, folder),
+                                     "the errors repeat."}),
                page::Page::Shown::folded);
   page::write(std::move(page), folder);
 }

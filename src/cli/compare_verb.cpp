@@ -311,10 +311,7 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
                  cell_text(row.want) + " in " + names.want + "."});
   }
   page.answer(alone);
-  std::vector<std::string> models{model_text(names.got, command.got),
-                                  model_text(names.want, command.want)};
-  std::erase(models, "");
-  page.answer(models);
+  page.answer({model_text(names.got, command.got), model_text(names.want, command.want)});
   page.figures(overlays(command, comparison, names, talk));
   page.section("What differs", first_table(differing, names));
   constexpr auto folded = page::Page::Shown::folded;

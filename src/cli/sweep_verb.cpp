@@ -24,6 +24,7 @@
 #include "cli/talk.h"
 #include "cli/verbs.h"
 #include "report/family_figures.h"
+#include "scenario/tested.h"
 #include "sweep/columns.h"
 #include "sweep/journal.h"
 #include "sweep/merge.h"
@@ -115,6 +116,15 @@ std::string repeating(const sweep::SweepPlan& plan, const Sweep& command) {
   return text;
 }
 
+// What all cases of a plan test, by the first of them; empty if it cannot be made.
+std::string common_to_all(const scenario::Family& family) {
+  try {
+    return joined(scenario::tested(scenario::make_case(family, 0), family.design.keys()), "; ");
+  } catch (const InputError&) {  // the row of this case says why
+    return "";
+  }
+}
+
 struct LookedAt {
   std::string range = {};                  // of the first result; empty if it has none
   std::vector<std::string> warnings = {};  // on what could not be computed: no failure of the merge
@@ -141,9 +151,11 @@ LookedAt look_at(const sweep::SweepPlan& plan, const Sweep& command,
          .found = found,
          .answer = answer,
          .title = family.title,
+         .tested = common_to_all(family),
          .totals = std::to_string(totals.completed) + " of " + count_text(totals.cases, "case") +
                    " completed, " + std::to_string(totals.diverged + totals.failed) + " failed, " +
                    std::to_string(totals.missing) + " missing.",
+         .incomplete = totals.completed < totals.cases,
          .scenario = family.inputs.front().content,
          .command = repeating(plan, command),
          .warnings = looked.warnings},

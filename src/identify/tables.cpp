@@ -11,6 +11,7 @@
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
 #include "scenario/integrators.h"
+#include "scenario/tested.h"
 
 namespace palpate::identify {
 
@@ -59,6 +60,26 @@ std::string change(double moved, const Identified& one) {
   const double number = relative ? 100.0 * moved / one.estimate : one.unknown.shown(moved);
   const std::string unit = relative ? "%" : one.unknown.unit_text();
   return (number > 0.0 ? "+" : "") + rounded_text(number, 2) + (unit.empty() ? "" : " " + unit);
+}
+
+// An estimate in words: `12.3 kPa` and `(95 %: 11 to 13)`. Without an interval where it is not
+// separately identifiable.
+struct EstimateTexts {
+  std::string value;
+  std::string interval;
+};
+EstimateTexts estimate_texts(const Identification& found, const Identified& one) {
+  if (one.inseparable) return {"not determined by itself", ""};
+  return {with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()),
+          "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
+              (one.by_profile ? ", by profile)" : ")") +
+              (one.at_bound ? "  on the edge of its range" : "")};
+}
+
+// The same of what is determined of unknowns that are not: `E / (1 - nu^2) = 66.9 kPa`.
+EstimateTexts estimate_texts(const Combination& one) {
+  return {one.text + " = " + with_unit(one.estimate, one.unit),
+          "95 % " + rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4)};
 }
 
 std::string combination_sentence(const Identification& found, const Combination& one) {
@@ -141,19 +162,6 @@ record::Table correlation_table(const Identification& found) {
   return table;
 }
 
-record::Table residual_table(const Identification& found) {
-  const CurveWords& words = words_of(found.kind);
-  const std::string y = words.y_column;
-  const std::string unit = *words.y.symbol == '\0' ? "" : std::string("_") + words.y.symbol;
-  record::Table table;
-  table.columns = {words.x_column, "measured" + unit, "model" + unit, "residual" + unit};
-  for (std::size_t i = 0; i < found.x.size(); ++i)
-    table.rows.push_back({words.x.from_si(found.x[i]), words.y.from_si(found.measured[i]),
-                          words.y.from_si(found.model[i]),
-                          words.y.from_si(found.measured[i] - found.model[i])});
-  return table;
-}
-
 record::Table profile_table(const Identification& found) {
   record::Table table;
   table.columns = {"unknown", "unit", "value", "delta", "threshold"};
@@ -164,19 +172,6 @@ record::Table profile_table(const Identification& found) {
                           unknown.shown(point.value), point.delta, found.threshold});
   }
   return table;
-}
-
-EstimateTexts estimate_texts(const Identification& found, const Identified& one) {
-  if (one.inseparable) return {"not determined by itself", ""};
-  return {with_unit(one.unknown.shown(one.estimate), one.unknown.unit_text()),
-          "(95 %: " + interval_text(trusted(one), one.unknown, is_exact(found)) +
-              (one.by_profile ? ", by profile)" : ")") +
-              (one.at_bound ? "  on the edge of its range" : "")};
-}
-
-EstimateTexts estimate_texts(const Combination& one) {
-  return {one.text + " = " + with_unit(one.estimate, one.unit),
-          "95 % " + rounded_text(one.ci95_low, 4) + " to " + rounded_text(one.ci95_high, 4)};
 }
 
 std::vector<std::string> identified_sentences(const Identification& found) {
@@ -342,6 +337,20 @@ std::string command_of(const std::vector<std::string>& argv, std::span<const Pai
   return text;
 }
 
+// x, measured, model, residual, in the units of the curve.
+record::Table residual_table(const Identification& found) {
+  const CurveWords& words = words_of(found.kind);
+  const std::string y = words.y_column;
+  const std::string unit = *words.y.symbol == '\0' ? "" : std::string("_") + words.y.symbol;
+  record::Table table;
+  table.columns = {words.x_column, "measured" + unit, "model" + unit, "residual" + unit};
+  for (std::size_t i = 0; i < found.x.size(); ++i)
+    table.rows.push_back({words.x.from_si(found.x[i]), words.y.from_si(found.measured[i]),
+                          words.y.from_si(found.model[i]),
+                          words.y.from_si(found.measured[i] - found.model[i])});
+  return table;
+}
+
 // The page of an identification: what was found, how well it fits, and what it depends on.
 void write_page(const identify::Identification& found, std::span<const PairFiles> pairs,
                 const std::vector<HashedFile>& inputs, const std::string& command,
@@ -357,22 +366,23 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
     const auto [known, its_interval] = estimate_texts(found.combinations.front());
     page.headline(known, its_interval);
   }
+  std::vector<std::string> unknown;
+  for (const identify::Identified& one : found.unknowns) unknown.push_back(one.unknown.name());
   page.answer(lines);
+  if (pairs.size() == 1)  // what the unknowns depend on
+    page.answer({joined(scenario::tested(pairs.front().family->cases.front(), unknown), "; ")});
   page.figures(page::all_figures(folder, figure_words));
   constexpr std::size_t most = 60;
-  const record::Table table = identified_table(found);
-  page.section("Estimates",
-               page::table_of_file(
-                   "Estimates with 95 % intervals",
-                   page::columns_of(table, {"unknown", "estimate", "unit", "ci95_low", "ci95_high",
+  page.section(
+      "Estimates",
+      page::table_of_file("Estimates with 95 % intervals",
+                          page::columns_of(identified_table(found),
+                                           {"unknown", "estimate", "unit", "ci95_low", "ci95_high",
                                             "std_error", "identifiable", "at_bound"}),
-                   "identified.csv", most) +
-                   page::table_of_file("Correlation of the estimates", correlation_table(found),
-                                       "correlation.csv", most));
+                          "identified.csv", most) +
+          page::table_of_file("Correlation of the estimates", correlation_table(found),
+                              "correlation.csv", most));
   constexpr auto folded = page::Page::Shown::folded;
-  page.section("Every column",
-               page::table_of_file("Estimates and both intervals", table, "identified.csv", most),
-               folded);
   std::vector<std::string> notes = found.notes;
   notes.insert(notes.end(), found.warnings.begin(), found.warnings.end());
   page.section("Notes", page::paragraphs(notes));
@@ -388,7 +398,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
                              .note = "It runs where the files below lie. Here, `palpate run "
                                      "scenario" +
                                      suffix_of(found, 0) + ".toml` computes the fitted curve."},
-                            inputs, folder),
+                            inputs),
                folded);
   page::write(std::move(page), folder);
 }

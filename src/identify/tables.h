@@ -25,9 +25,6 @@ namespace palpate::identify {
 // at a bound.
 [[nodiscard]] record::Table correlation_table(const Identification& found);
 
-// x, measured, model, residual, in the units of the curve.
-[[nodiscard]] record::Table residual_table(const Identification& found);
-
 // unknown, unit, value, delta, threshold: the profile likelihood, delta = (SSE - least SSE) / s^2,
 // threshold = t^2.                                                       docs/theory.md [profile]
 [[nodiscard]] record::Table profile_table(const Identification& found);
@@ -45,16 +42,6 @@ struct Interval {
 // What computed the curve: `layer` in back-quotes, or the formula of a uniform specimen, for which
 // no model runs.
 [[nodiscard]] std::string computed_by(const CurveFit& found);
-
-// An estimate in words: `12.3 kPa` and `(95 %: 11 to 13)`. Without an interval where it is not
-// separately identifiable.
-struct EstimateTexts {
-  std::string value;
-  std::string interval;
-};
-[[nodiscard]] EstimateTexts estimate_texts(const Identification& found, const Identified& one);
-// The same of what is determined of unknowns that are not: `E / (1 - nu^2) = 66.9 kPa`.
-[[nodiscard]] EstimateTexts estimate_texts(const Combination& one);
 
 // Lines for stdout: estimates, inseparable unknowns, model, residuals and effect of
 // the contact point.

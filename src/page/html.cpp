@@ -78,7 +78,8 @@ Markup sentence(std::string_view words) {
 Markup paragraphs(const std::vector<std::string>& sentences) {
   Markup all;
   for (const std::string& one : sentences)
-    all += element("p", sentence(capitalized(one) + (one.ends_with('.') ? "" : ".")));
+    if (!one.empty())
+      all += element("p", sentence(capitalized(one) + (one.ends_with('.') ? "" : ".")));
   return all;
 }
 

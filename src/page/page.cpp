@@ -85,7 +85,7 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 .turn { display: flex; flex-wrap: wrap; gap: 1rem; margin-top: .5rem; align-items: center; }
 .turn label { display: flex; gap: .5rem; align-items: center; } canvas { max-width: 100%; }
 @media print { nav, .skip, .turn { display: none; } body { max-width: none; padding: 0; }
-  .wide { overflow: visible; } .wide table { font-size: .78rem; break-inside: avoid; } figure svg { max-height: 19cm; } .beside svg { max-height: 13cm; }
+  .wide { overflow: visible; } .wide table { font-size: .78rem; break-inside: avoid; } figure svg { max-height: 22cm; } .beside svg { max-height: 13cm; }
   h2, h3, caption, thead { break-after: avoid; } tr, .cards section { break-inside: avoid; } footer { margin-top: .3rem; }
   tbody tr:first-child { break-before: avoid; } summary { list-style: none; break-after: avoid; }
   details::details-content { content-visibility: visible; height: auto; }
@@ -277,8 +277,7 @@ std::vector<Markup> all_figures(const WholeFolder& folder,
   return all;
 }
 
-Markup making(const Making& made, const std::vector<HashedFile>& inputs,
-              const WholeFolder& folder) {
+Markup making(const Making& made, const std::vector<HashedFile>& inputs) {
   Markup all = element(
       "p", text("This repeats the result in this folder, its tables with the same bytes on "
                 "every x86-64 processor, by the same build of palpate " PALPATE_VERSION ":"));
@@ -286,12 +285,7 @@ Markup making(const Making& made, const std::vector<HashedFile>& inputs,
   if (!made.note.empty()) all += paragraphs({made.note});
   record::Table hashes{{"file", "SHA-256"}, {}};
   for (const HashedFile& file : inputs) hashes.rows.push_back({file.path, file.sha256});
-  if (!hashes.rows.empty()) all += table("What went in", hashes);
-  hashes.rows.clear();
-  for (const HashedFile& file : folder.files()) hashes.rows.push_back({file.path, file.sha256});
-  constexpr std::size_t most = 100;
-  if (hashes.rows.size() > most) hashes.rows.resize(most);
-  return all + table("What came out", hashes);
+  return hashes.rows.empty() ? all : all + table("What went in", hashes);
 }
 
 Markup folded(const std::string& summary, const std::string& content) {
@@ -348,7 +342,8 @@ void write(Page page, WholeFolder& folder) {
   Markup items;
   std::size_t count = 0;
   for (const HashedFile& file : folder.files())
-    if (++count <= most) items += element("li", link(file.path, file.path));
+    if (++count <= most)
+      items += element("li", link(file.path, file.path) + text(" ") + element("code", file.sha256));
   page.section("Files", element("ul", items), Page::Shown::folded);
   folder.write(file_name, page.html(Page::Files::beside));
 }

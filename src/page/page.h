@@ -69,13 +69,12 @@ class Page {
 [[nodiscard]] Markup inline_svg(const std::string& svg, const std::string& prefix,
                                 const std::string& description);
 
-// How the result was made and how to repeat it: program, command, and the SHA-256 of the files.
+// How the result was made and how to repeat it: program, command, and the SHA-256 of what went in.
 struct Making {
   std::string command = {};  // that repeats the result, run in its folder
   std::string note = {};     // a sentence; may be empty
 };
-[[nodiscard]] Markup making(const Making& made, const std::vector<HashedFile>& inputs,
-                            const WholeFolder& folder);
+[[nodiscard]] Markup making(const Making& made, const std::vector<HashedFile>& inputs = {});
 
 // A long text, folded up.
 [[nodiscard]] Markup folded(const std::string& summary, const std::string& content);
@@ -92,7 +91,7 @@ struct Summary {
 };
 [[nodiscard]] Summary summary_of(const std::string& html);
 
-// Adds the files of a folder, the last section, and writes report.html.
+// Adds the files of a folder with their SHA-256, the last section, and writes report.html.
 void write(Page page, WholeFolder& folder);
 
 }  // namespace palpate::page

@@ -52,8 +52,7 @@ std::vector<record::SweptColumn> swept_columns(const scenario::Family& family,
   return columns;
 }
 
-}  // namespace
-
+// findings.csv: case, the swept keys, then one column per finding, empty for cases without it.
 record::Table findings_table(const scenario::Family& family,
                              const std::vector<record::CaseRecord>& records) {
   record::Table table;
@@ -76,8 +75,6 @@ record::Table findings_table(const scenario::Family& family,
   }
   return table;
 }
-
-namespace {
 
 const char* curve_name(const scenario::Family& family) {
   return family.base.uniform() ? "strain_time.csv" : "force_indentation.csv";

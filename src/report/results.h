@@ -17,10 +17,6 @@
 
 namespace palpate::report {
 
-// findings.csv: case, the swept keys, then one column per finding, empty for cases without it.
-[[nodiscard]] record::Table findings_table(const scenario::Family& family,
-                                           const std::vector<record::CaseRecord>& records);
-
 // The CSV files of a result by name, as written by `run` and stored by `golden add`.
 using CsvFiles = std::vector<std::pair<std::string, record::Table>>;
 [[nodiscard]] CsvFiles csv_files(const scenario::Family& family,

@@ -25,6 +25,7 @@
 #include "scenario/family.h"
 #include "scenario/model_traits.h"
 #include "scenario/resolved.h"
+#include "scenario/tested.h"
 
 namespace palpate::report {
 namespace {
@@ -233,7 +234,7 @@ Markup findings_by_case(const Records& records) {
   });
   const std::size_t of_peak = words_of_finding("peak_force_N").group;
   for (std::size_t group = 0; group < finding_groups().size(); ++group) {
-    record::Table table{{"finding"}, {}};
+    record::Table table{{"quantity"}, {}};
     std::vector<std::string> names;
     for (const record::CaseRecord& record : records) {
       table.columns.push_back(record.name);
@@ -339,19 +340,28 @@ std::string first_statement(const std::string& text) {
   return text.substr(0, std::min(text.find("; "), text.find(". ")));
 }
 
-// The largest effect that is neglected, with its remedy, and how many more there are: `viscosity,
-// which would add 36 % to the force while pressing; add ... (and 2 other effects)`.
+// The largest effect that is neglected, with its remedy, and the others by name and size:
+// `viscosity, which would add 36 % to the force while pressing; add ... (also the size of the body,
+// 15 %; large strains, 1.8 %)`.
 std::string neglected(const record::Answer& answer) {
   const std::string_view other = " Also neglected: ";
-  std::string text = answer.neglected.substr(0, answer.neglected.find(other));
+  const std::size_t end = std::min(answer.neglected.find(other), answer.neglected.size());
+  std::string text = answer.neglected.substr(0, end);
   if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
-  std::size_t others = 0;
-  for (std::size_t at = answer.neglected.find(other); at != std::string::npos;
-       at = answer.neglected.find(other, at + 1))
-    ++others;
   if (text.ends_with('.')) text.pop_back();
-  if (others > 0) text += " (and " + count_text(others, "other effect") + ")";
-  return text;
+  std::vector<std::string> others;
+  for (std::size_t at = end; at < answer.neglected.size();) {
+    at += other.size();
+    const std::size_t next = std::min(answer.neglected.find(other, at), answer.neglected.size());
+    const std::string one = answer.neglected.substr(at, next - at);
+    others.push_back(one.substr(0, one.find(", ")));
+    if (const std::size_t percent = one.find(" %"); percent != std::string::npos) {
+      const std::size_t number = one.rfind(' ', percent - 1) + 1;
+      others.back() += ", " + one.substr(number, percent + 2 - number);
+    }
+    at = next;
+  }
+  return others.empty() ? text : text + " (also " + joined(others, "; ") + ")";
 }
 
 // `1.17 N`
@@ -383,25 +393,17 @@ std::string early_end(const record::CaseRecord& record) {
 }
 
 // The verdict of a live run in two: whether measured and model agree, by how much, and what causes
-// it; and the other numbers.
+// it; and the other numbers. Empty without a verdict.
 std::vector<std::string> verdict_sentences(const std::string& verdict) {
+  if (verdict.empty()) return {};
   const std::string allowed = " allowed)";
   std::size_t numbers = verdict.find(allowed);
   if (numbers == std::string::npos) return {verdict};
   numbers += allowed.size();
   const std::size_t causes = std::min(verdict.find("; ", numbers), verdict.size());
   std::vector<std::string> all{verdict.substr(0, numbers) + verdict.substr(causes)};
-  if (causes > numbers + 2)
-    all.push_back("Beside the device: " + verdict.substr(numbers + 2, causes - numbers - 2));
+  if (causes > numbers + 2) all.push_back(verdict.substr(numbers + 2, causes - numbers - 2));
   return all;
-}
-
-// `a sphere of radius 11 mm`
-std::string finger_text(const scenario::Case& one) {
-  const scenario::Finger& finger = one.scenario.finger;
-  return (finger.spheres == 1 ? std::string("a sphere")
-                              : std::to_string(finger.spheres) + " spheres that stand for one") +
-         " of radius " + rounded_text(unit::mm.from_si(finger.radius), 3) + " mm";
 }
 
 // ` at x 30, y 30, z 30 mm`: where the finger touches the surface first, in the scenario's
@@ -426,84 +428,18 @@ std::string viscosity_of(const scenario::Case& one, const record::CaseRecord& re
   return "";
 }
 
-// `Creep under 1 kPa for 5 s, then recovery for 5 s`, of a test between plates.
-std::string loading_text(const scenario::Case& one) {
-  std::string text;
-  for (const scenario::Step& step : one.scenario.steps) {
-    std::string words;
-    if (const auto* creep = std::get_if<scenario::Creep>(&step))
-      words = "creep under " + quantity_text(creep->stress, unit::kPa) + " for " +
-              quantity_text(creep->load_time, unit::s) + ", then recovery for " +
-              quantity_text(creep->recovery_time, unit::s);
-    if (const auto* relax = std::get_if<scenario::Relax>(&step))
-      words = "relaxation at a strain of " + percent_text(relax->strain) + " for " +
-              quantity_text(relax->time, unit::s);
-    if (const auto* compress = std::get_if<scenario::Compress>(&step))
-      words = "compression to a strain of " + percent_text(compress->strain) + " in " +
-              quantity_text(compress->ramp_time(), unit::s) +
-              (compress->hold_time > 0.0
-                   ? ", then held for " + quantity_text(compress->hold_time, unit::s)
-                   : "");
-    if (!words.empty()) text += (text.empty() ? "" : "; ") + words;
-  }
-  return capitalized(text);
-}
-
-// `skin, E 72.4 kPa`
-std::string material_text(const std::string& name, double modulus) {
-  return name.substr(name.rfind('#') + 1) + ", E " + rounded_text(unit::kPa.from_si(modulus), 3) +
-         " kPa";
-}
-
-// `Tissue: skin, E 72.4 kPa, nu 0.33`
-std::string tissue_text(const scenario::Case& one) {
-  const scenario::Tissue& tissue = one.scenario.tissue;
-  return "Tissue: " +
-         material_text(tissue.material,
-                       tissue.young_modulus.value_or(one.materials.tissue.young_modulus.value)) +
-         ", nu " + rounded_text(scenario::poisson_ratio(one), 3);
-}
-
-// `region 1: skin, E 1000 kPa`; of more than three their number. Empty without regions.
-std::string regions_text(const scenario::Case& one) {
-  const std::vector<scenario::Region>& regions = one.scenario.regions;
-  constexpr std::size_t most = 3;
-  if (regions.size() > most) return std::to_string(regions.size()) + " regions of other tissue";
-  std::vector<std::string> all;
-  for (std::size_t i = 0; i < regions.size(); ++i)
-    all.push_back(
-        "region " + std::to_string(i + 1) + ": " +
-        material_text(regions[i].material, regions[i].young_modulus.value_or(
-                                               one.materials.regions[i].young_modulus.value)));
-  return joined(all, "; ");
-}
-
-// `, then slid by 40 mm`
-std::string slides_text(const scenario::Case& one) {
-  std::string text;
-  for (const scenario::Step& step : one.scenario.steps)
-    if (const auto* slide = std::get_if<scenario::Slide>(&step))
-      text += (text.empty() ? ", then slid by " : " and by ") + quantity_text(slide->by, unit::mm) +
-              (slide->keep == scenario::Slide::Keep::force ? " at the same force" : "");
-  return text;
-}
-
-// What was tested, where, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33; pressed 2 mm by a
-// sphere of radius 11 mm at x 30, y 30, z 30 mm; underside fixed (bonded base).`
+// What was tested, where, and with what: `Tissue: skin, E 72.4 kPa, nu 0.33; block of
+// 60 x 60 x 30 mm; pressed 2 mm by a sphere of radius 11 mm at x 30, y 30, z 30 mm; underside fixed
+// (bonded base).`
 std::string tested(const scenario::Case& one, const record::CaseRecord& record) {
-  std::vector<std::string> all{tissue_text(one), regions_text(one)};
   const double depth = finding_number(record, "peak_travel_mm");
-  if (std::isfinite(depth))
-    all.push_back("pressed " + rounded_text(depth, 3) + " mm by " + finger_text(one) +
-                  place_text(one, record.picture) + slides_text(one));
+  std::vector<std::string> all =
+      scenario::tested(one, {},
+                       {.depth = std::isfinite(depth) ? rounded_text(depth, 3) + " mm" : "",
+                        .place = place_text(one, record.picture)});
   const std::string& side = one.scenario.tissue.base_side;
   if (!record.picture.base.empty())
     all.push_back((side.empty() ? "underside " : "side " + side + " ") + record.picture.base);
-  for (const scenario::Step& step : one.scenario.steps)
-    if (const auto* compress = std::get_if<scenario::Compress>(&step))
-      all.push_back(compress->platen == tissue::Base::bonded ? "upper platen bonded"
-                                                             : "upper platen slides");
-  std::erase(all, "");
   return joined(all, "; ") + ".";
 }
 
@@ -541,29 +477,18 @@ std::string differing_text(const scenario::Family& family) {
   return all.empty() ? "" : "Cases differ in " + joined(all, "; ");
 }
 
-// What several cases have in common: the tissue, its regions, and the finger with its place, or the
-// loading between plates; and in what they differ.
+// What several cases have in common, and in what they differ.
 std::vector<std::string> in_common(const scenario::Family& family, const Records& records) {
-  const auto common = [&](const auto& text_of) {
-    const std::string text = text_of(family.cases.front());
-    const bool same = std::all_of(family.cases.begin(), family.cases.end(),
-                                  [&](const auto& one) { return text_of(one) == text; });
-    return same ? text : "";
-  };
   const std::vector<std::string>& keys = family.design.keys();
   const bool one_place = std::none_of(keys.begin(), keys.end(), [](const std::string& key) {
-    return key.starts_with("finger.") || key.starts_with("tissue.shape");
+    return key.starts_with("tissue.shape");
   });
-  std::string loading = common([&](const scenario::Case& one) {
-    return family.base.uniform()
-               ? loading_text(one)
-               : "Pressed by " + finger_text(one) +
-                     (one_place ? place_text(one, records.front().picture) : "") + slides_text(one);
-  });
-  std::vector<std::string> all{common(tissue_text), common(regions_text), loading,
-                               differing_text(family)};
-  std::erase(all, "");
-  return all;
+  const scenario::Case& first = family.cases.front();
+  return {joined(scenario::tested(
+                     first, keys,
+                     {.place = one_place ? place_text(first, records.front().picture) : ""}),
+                 "; "),
+          differing_text(family)};
 }
 
 // The force, its error, the model, and what is neglected: of one case, or of several together.
@@ -578,8 +503,7 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
       return page.answer({answer.model});
     }
     const auto peak = record::peak_of(record);
-    const std::vector<std::string> verdict =
-        answer.verdict.empty() ? std::vector<std::string>() : verdict_sentences(answer.verdict);
+    const std::vector<std::string> verdict = verdict_sentences(answer.verdict);
     if (record.unstable)
       page.headline(capitalized(divergence(record)), first_statement(record.reason),
                     page::Page::Tone::failure);
@@ -595,10 +519,8 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     if (!verdict.empty()) page.answer({verdict.front()});
     const scenario::Case& one = scenario::case_named(family, record.name);
     page.answer({tested(one, record)});
-    if (family.base.uniform())
-      page.answer({loading_text(one), "Viscosity: " + viscosity_of(one, record)});
+    if (family.base.uniform()) page.answer({"Viscosity: " + viscosity_of(one, record)});
     page.answer({first_statement(answer.model), "Neglected: " + neglected(answer)});
-    if (verdict.size() > 1) page.answer({verdict.back()});
   } else if (!records.empty()) {
     std::vector<std::string> lines = answer_lines(records);
     std::erase(lines[1], '`');
@@ -638,7 +560,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   page.figures(figures);
   if (records.size() > 1 && records.size() <= most_answers)  // the first screen is for the curves
     page.section("Every case", element("div",
-                                       page::table("Force, error, model and what is neglected",
+                                       page::table("Result, error, model and what is neglected",
                                                    case_table(family, records)),
                                        {{"class", "whole"}}));
   if (!records.empty() && !records.front().picture.faces.empty()) {
@@ -647,12 +569,15 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
     page.script(scene_script());
   }
   page.section("Beside the paper", paper_section(family, records, shown.fits));
+  for (const record::CaseRecord& record : records)
+    if (const auto verdict = verdict_sentences(record.answer.verdict); verdict.size() > 1)
+      page.section("Beside the device", page::paragraphs({verdict.back()}));
   constexpr auto folded = page::Page::Shown::folded;
   if (records.size() != 1 || !records.front().answer.neglected.empty())
     page.section("Model, error and what is neglected", page::paragraphs(answer_lines(records)),
                  folded);
   page.section("Warnings", warnings(records), folded);
-  page.section("Findings",
+  page.section("Derived quantities",
                records.size() <= most_columns
                    ? findings_by_case(records)
                    : page::table_of_file("Every case", case_table(family, records), "findings.csv",
@@ -672,7 +597,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
                     .note = live ? "A live run follows its device, so that this command repeats "
                                    "the loading history and not the motion of the device."
                                  : "How long it took stands in run.json."},
-                   inputs, folder),
+                   inputs),
       folded);
   page::write(std::move(page), folder);
 }

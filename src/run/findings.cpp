@@ -152,11 +152,12 @@ class Findings {
     const scene::BaseArea base =
         scene::base_area(scenario, body, touch.position, touch.position.z() - level);
     if (base.under_press < least_under)
-      warning("only " + percent_text(base.under_press) +
-              " of the surface behind the press is held: the body bends or turns there; see the "
-              "base in "
-              "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is held "
-              "elsewhere");
+      warning(
+          "only " + percent_text(base.under_press) +
+          " of the surface behind the press is fixed: the body bends or turns there; see the "
+          "base in "
+          "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is fixed "
+          "elsewhere");
   }
 
   void specimen(const scene::Specimen& specimen) {

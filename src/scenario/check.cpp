@@ -134,9 +134,10 @@ class Checker {
     const double radius = scenario_.finger.radius;
     const std::string to = "`to` of " + quantity_text(travel, unit::mm);
     if (travel > radius)
-      problem(path, to + " is deeper than the finger's radius of " +
-                        quantity_text(radius, unit::mm) +
-                        ", where no Hertz contact is left; press less deep");
+      problem(path,
+              to + " is deeper than the finger's radius of " + quantity_text(radius, unit::mm) +
+                  ", and a sphere presses with its lower half; press less deep, or give a larger "
+                  "`finger.radius`");
     const auto* box = std::get_if<Cuboid>(&scenario_.tissue.shape);
     if (travel > radius || box == nullptr) return;
     constexpr double through = 0.9;

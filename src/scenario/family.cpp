@@ -93,8 +93,7 @@ class Trial {
   // Makes case i; the first case made becomes the family's base.
   Case make(std::size_t i);
 
-  // Makes all cases of a family of at most `most`; otherwise that many, evenly spread, and each row
-  // of a table that names other files.
+  // Builds all cases, or a spread sample of `most`, plus every table row that names a file.
   void try_cases(std::size_t most);
 
   // Checks that case names are different, and that `display_scale` uses existing names.

@@ -216,7 +216,7 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
                output.pressure_maps);
   visitor.flag({"fits", "Regressions of the curves."}, output.fits);
   visitor.flag({"figures", "SVG figures by gnuplot."}, output.figures);
-  visitor.flag({"report", "A page with the result, figures and findings, `report.html`."},
+  visitor.flag({"report", "A page with the result, figures and derived quantities, `report.html`."},
                output.report);
   visitor.choice(of_the_paper({"paper",
                                "Which figure of Chen 2007 the page sets its results beside.",
@@ -468,7 +468,10 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                  "deep tissue and by more on a thin layer"});
   visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
                    unit::density, above(0));
-  visitor.choice({"viscosity", "The viscous law of the tissue."}, tissue.viscosity, viscosities);
+  visitor.choice({"viscosity",
+                  "The viscous law of the tissue. A material without `retardation_time` is elastic "
+                  "unless something asks for viscosity."},
+                 tissue.viscosity, viscosities);
   const auto with = [&](tissue::Viscosity law, const char* when) {
     return Use{tissue.viscosity == law, when};
   };
@@ -501,7 +504,7 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.choice_or(auto_bases, {"base", "How the base of the specimen is supported.", use.based},
                     tissue.base, bases);
   visitor.text({"base_side",
-                "The side of a body from a file that is held: a direction in its coordinates, as "
+                "The side of a body from a file that is fixed: a direction in its coordinates, as "
                 "`up` of `tissue.shape`, or the name or number of a group of faces of a Gmsh or "
                 "MEDIT file. "
                 "`base_height` is then along the opposite direction. Default: the underside.",

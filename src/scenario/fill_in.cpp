@@ -75,15 +75,28 @@ void read_named_file(const NamedFile& named, const Node& document, Sources& sour
   }
 }
 
-// Throws InputError if neither the scenario nor its material has a property that is required.
-void require_tissue(const Scenario& scenario, const material::Tissue& material,
-                    const Node& document) {
-  const Tissue& tissue = scenario.tissue;
+bool gives_viscosity(const Node& document) {
+  const Member* tissue = document.find("tissue");
+  return tissue != nullptr && tissue->value.find("viscosity") != nullptr;
+}
+
+// Makes the tissue elastic where its material has no time for the default viscous law and nothing
+// asks for viscosity. Throws InputError if neither the scenario nor its material has a property
+// that is required.
+void require_tissue(Scenario& scenario, const material::Tissue& material, const Node& document) {
+  Tissue& tissue = scenario.tissue;
   if (tissue.poisson_ratio.value_or(material.poisson_ratio.value) >= 0.5)
     throw InputError(place_of(document, "tissue.material"),
                      "`" + tissue.material +
                          "` has a Poisson's ratio of 0.5, and a tissue needs "
                          "less; set `tissue.poisson_ratio = 0.49`");
+  const bool viscous_test =
+      std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& step) {
+        return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
+      });
+  const bool asked = gives_viscosity(document) || viscous_test || viscous_contact(scenario);
+  if (!asked && !tissue.retardation_time && !material.retardation_time)
+    tissue.viscosity = tissue::Viscosity::none;
   // If viscosity is not computed, viscous properties only serve estimates and may be missing.
   if (!scenario.meshed() && !viscous_contact(scenario)) return;
   const auto require = [&](tissue::Viscosity law, const std::optional<double>& given,
@@ -125,12 +138,11 @@ void complete_shape(Scenario& scenario, const Node& document) {
 void complete_contact(Scenario& scenario, const Node& document) {
   using Viscosity = Contact::Viscosity;
   if (scenario.contact.viscosity) return;
-  const Member* tissue = document.find("tissue");
-  const bool given = tissue != nullptr && tissue->value.find("viscosity") != nullptr;
   const bool hertz_knows = scenario.contact.coupling == contact::Coupling::consistent;
   const bool flows = scenario.tissue.viscosity != tissue::Viscosity::none &&
                      scenario.tissue.viscosity != tissue::Viscosity::nodal_drag;
-  scenario.contact.viscosity = given && hertz_knows && flows ? Viscosity::tissue : Viscosity::none;
+  scenario.contact.viscosity =
+      gives_viscosity(document) && hertz_knows && flows ? Viscosity::tissue : Viscosity::none;
 }
 
 }  // namespace
@@ -150,7 +162,7 @@ void complete(Scenario& scenario, const Node& document) {
   complete_shape(scenario, document);
 }
 
-Materials find_materials(const Scenario& scenario, const Node& document, Sources& sources,
+Materials find_materials(Scenario& scenario, const Node& document, Sources& sources,
                          std::vector<Problem>& problems) {
   const bool readable = problems.empty();
   Materials materials;

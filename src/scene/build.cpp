@@ -335,7 +335,7 @@ void refuse_sliding(const Scene& scene, const scenario::Family& family) {
           "level");
 }
 
-// Refuses a model that cannot compute the scene, and names the most complete model that can.
+// Refuses a model that cannot compute the scene.
 void refuse_beyond(const Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
   const scenario::Resolved& scenario = scene.scenario;
   if (scenario.uniform()) return;
@@ -348,13 +348,10 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family, SpecimenS
     if (!touch.beside.empty()) throw KeyError(touch.beside, *reason);
     throw MeshError(*reason);
   }
-  const scenario::ModelTraits* remedy = &scenario::strongest;
-  for (const scenario::ModelTraits& other : scenario::model_table)
-    if (!other.solid && !beyond(other.of, scenario, touch)) remedy = &other;
   throw InputError(place_of(family.document, "solver.model"),
                    "`" + std::string(scenario::traits(scenario.solver.model).word) +
-                       "` cannot compute this scene: " + *reason + "; set `solver.model = \"" +
-                       remedy->word + "\"`");
+                       "` cannot compute this scene: " + *reason +
+                       "; set `solver.model = \"auto\"`, which takes one that can");
 }
 
 }  // namespace

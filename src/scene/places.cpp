@@ -175,7 +175,7 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
       "the faces of the group `" + scenario.tissue.base_side + "` of `tissue.base_side` ";
   if (outwards.norm() < 0.5 * own)
     throw MeshError(base +
-                    "look in many directions, so that they are no side that can be held; "
+                    "look in many directions, so that they are no side that can be fixed; "
                     "name a flatter group");
   outwards.normalize();
   double height = -HUGE_VAL;
@@ -195,7 +195,7 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
   if (std::abs(beyond - own) > allowed * own)
     throw MeshError(base + "have " + rounded_text(1e6 * own) +
                     " mm^2, but the surface beyond the " +
-                    "plane through them, which would be held, has " + rounded_text(1e6 * beyond) +
+                    "plane through them, which would be fixed, has " + rounded_text(1e6 * beyond) +
                     " mm^2; name a group that is the whole end of the body on one side");
   const double low = geometry::reach_along(body.vertices, -outwards).first;
   if (!flat_underside(body, -outwards, low) || height > low + rounding)

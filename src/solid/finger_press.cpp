@@ -320,7 +320,7 @@ double FingerPress::found_to() const {
 std::string FingerPress::end_text() const {
   if (ball_.end == End::open && !(tissue_.reached > 0.0))
     return "the body gives way sideways as soon as the finger touches it: press it nearer to where "
-           "it is held, or across its length (`finger.towards`), or hold more of it "
+           "it is fixed, or across its length (`finger.towards`), or fix more of it "
            "(`tissue.base_height`, `tissue.base_side`)";
   const std::string beyond =
       " beyond a displacement of " + rounded_text(unit::mm.from_si(found_to()), 3) + " mm";

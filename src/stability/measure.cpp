@@ -32,8 +32,8 @@ Vector scattered(const integrate::Body& body) {
   return vector;
 }
 
-}  // namespace
-
+// From M^-1/2 (K + k w w^T) M^-1/2, to a relative residual of 1e-9. The body is linear without
+// branches; `contact` can be null.
 BodyMode highest_mode(const integrate::Body& body, const ContactSpring* contact) {
   Vector scale = body.mass().cwiseSqrt().cwiseInverse();
   for (Eigen::Index d = 0; d < scale.size(); ++d)
@@ -50,6 +50,8 @@ BodyMode highest_mode(const integrate::Body& body, const ContactSpring* contact)
   const EigenPair found = largest_eigenpair(start, 1e-9, multiply);
   return {std::sqrt(std::max(found.value, 0.0)), scale.cwiseProduct(found.vector)};
 }
+
+}  // namespace
 
 BodyMode lowest_mode(const integrate::Body& body) {
   integrate::State state;
@@ -130,17 +132,6 @@ Moved move(const FreeMotion& motion, double time_step, double enough) {
   const bool dead = moved.after <= 1e-24 * std::max(first, greatest[0]);
   if (!dead && moved.after > motion.growth * moved.before) moved.failure = Failure::divergence;
   return moved;
-}
-
-void choose_length(FreeMotion& motion, double damping_ratio) {
-  // For a time step that is e (relative) above the limit, one root is -1 - d: over half of n steps
-  // the energy grows by exp(n d). Undamped, d = sqrt(8 e), and e = 0.0005 gives a factor of 1e11 in
-  // 400 steps. With heavy centred damping, d is about 2 e / zeta: n = 10 zeta gives exp(20 e), 1.05
-  // at e = 0.0025. With damping that lags or leads, d = 2 e for every zeta.
-  constexpr double most = 40000.0;
-  motion.steps = 400;
-  if (motion.centred) motion.steps = static_cast<int>(std::min(400.0 + 10.0 * damping_ratio, most));
-  motion.growth = damping_ratio > 0.05 ? 1.05 : 2.0;
 }
 
 std::optional<double> bisect_limit(const std::function<bool(double)>& stable, double start,
@@ -343,6 +334,18 @@ double growth_beyond(double omega_step) {
 }
 
 namespace {
+
+// Sets `steps` and `growth` so that a time step 0.25 % above the limit is seen to be unstable.
+void choose_length(FreeMotion& motion, double damping_ratio) {
+  // For a time step that is e (relative) above the limit, one root is -1 - d: over half of n steps
+  // the energy grows by exp(n d). Undamped, d = sqrt(8 e), and e = 0.0005 gives a factor of 1e11 in
+  // 400 steps. With heavy centred damping, d is about 2 e / zeta: n = 10 zeta gives exp(20 e), 1.05
+  // at e = 0.0025. With damping that lags or leads, d = 2 e for every zeta.
+  constexpr double most = 40000.0;
+  motion.steps = 400;
+  if (motion.centred) motion.steps = static_cast<int>(std::min(400.0 + 10.0 * damping_ratio, most));
+  motion.growth = damping_ratio > 0.05 ? 1.05 : 2.0;
+}
 
 constexpr double resolution = 1e-3;  // relative, of a bisected limit
 constexpr double farthest = 1000.0;  // times 2 / omega: longest step for methods without a limit

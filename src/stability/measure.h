@@ -28,10 +28,6 @@ struct BodyMode {
   integrate::Vector shape;  // kg^-1/2: the modal mass is 1
 };
 
-// From M^-1/2 (K + k w w^T) M^-1/2, to a relative residual of 1e-9. The body is linear without
-// branches; `contact` can be null.
-[[nodiscard]] BodyMode highest_mode(const integrate::Body& body, const ContactSpring* contact);
-
 // From M^1/2 K^-1 M^1/2, to a relative residual of 1e-9. Throws std::domain_error if the body is
 // not held and can move without energy.
 [[nodiscard]] BodyMode lowest_mode(const integrate::Body& body);
@@ -58,9 +54,6 @@ struct Moved {
 
 // Computes the motion with this time step, s. Stops if the energy is `enough` times the first.
 [[nodiscard]] Moved move(const FreeMotion& motion, double time_step, double enough = 1e12);
-
-// Sets `steps` and `growth` so that a time step 0.25 % above the limit is seen to be unstable.
-void choose_length(FreeMotion& motion, double damping_ratio);
 
 // The limit between stable and unstable time steps, s, with the relative error `resolution`: from
 // `start` by doubling or halving, then by bisection. Nothing if every step up to

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "run/choose.h"
 #include "scenario/integrators.h"
+#include "scenario/tested.h"
 #include "scenario/words.h"
 #include "stability/survey.h"
 
@@ -310,8 +311,8 @@ StabilityMap map_stability(const scenario::Case& one, const scenario::Family& fa
   std::vector<std::string> sentences = map_sentences(survey);
   if (const std::string text = unstepped(one, survey.shapes); !text.empty())
     sentences.insert(sentences.begin(), text);
-  else
-    survey.map.longest_step = longest_step(survey);
+  survey.map.longest_step = longest_step(survey);
+  survey.map.tested = joined(scenario::tested(one), "; ");
   survey.map.sentences.insert(survey.map.sentences.begin(), sentences.begin(), sentences.end());
   return std::move(survey.map);
 }

@@ -50,6 +50,7 @@ struct FailureRow {
 struct StabilityMap {
   std::vector<LimitRow> limits;
   std::vector<FailureRow> failures;
+  std::string tested;  // the case in a sentence
   std::vector<std::string> sentences;
   std::optional<double> longest_step = {};  // s, of central differences without damping
 };

@@ -75,7 +75,7 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
     if (map.longest_step)
       page.headline(rounded_text(1e6 * *map.longest_step, 4) + " µs",
                     "longest safe step of central differences");
-    page.answer({more.front()});
+    page.answer({more.front(), map.tested});
     more.erase(more.begin());
   }
   page.figures(page::all_figures(folder, [](const std::string&) {
@@ -99,8 +99,7 @@ std::vector<std::string> write_map(const StabilityMap& map, const std::string& t
                                                          "setting_unit", "measured", "theory"}),
                    "failures.csv", most),
                folded);
-  page.section("How it was made",
-               page::making({.command = "palpate stability " + title + ".toml"}, {}, folder),
+  page.section("How it was made", page::making({.command = "palpate stability " + title + ".toml"}),
                folded);
   page::write(std::move(page), folder);
   return folder.put(WholeFolder::State::complete, warnings);

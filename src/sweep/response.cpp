@@ -709,9 +709,11 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
     page.answer({of_outputs.front()});
     of_outputs.erase(of_outputs.begin());
   }
-  page.answer(shown.answer.lines());
+  page.answer({shown.tested});
+  const std::vector<std::string> lines = shown.answer.lines();  // model, what is neglected
+  page.answer({lines.begin(), lines.begin() + std::min(std::ssize(lines), std::ptrdiff_t{2})});
   page.answer(of_outputs);
-  page.answer({shown.totals});
+  if (shown.incomplete) page.answer({shown.totals});
   page.figures(page::all_figures(folder, figure_words));
   constexpr std::size_t most = 100;
   page::Markup tables;
@@ -727,8 +729,10 @@ void write_sweep_page(const SweepShown& shown, WholeFolder& folder) {
   page.section("Sensitivity", tables);
   page.section("Warnings", page::paragraphs(shown.warnings));
   constexpr auto folded = page::Page::Shown::folded;
+  page.section("Model and what is neglected",
+               page::paragraphs(lines) + page::paragraphs({shown.totals}), folded);
   page.section("Scenario", page::folded("The scenario as written", shown.scenario), folded);
-  page.section("How it was made", page::making({.command = shown.command}, {}, folder), folded);
+  page.section("How it was made", page::making({.command = shown.command}), folded);
   page::write(std::move(page), folder);
 }
 

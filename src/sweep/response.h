@@ -62,7 +62,9 @@ struct SweepShown {
   const Sensitivity& found;
   const SweepAnswer& answer;
   std::string title;
+  std::string tested;                 // a sentence: what all cases have in common
   std::string totals;                 // a sentence: how many cases were completed
+  bool incomplete = false;            // a case failed or is missing
   std::string scenario;               // the text that was planned
   std::string command;                // that repeats it, run in the folder of the page
   std::vector<std::string> warnings;  // sentences

@@ -39,6 +39,8 @@ SENTENCES = {
     r"bless\w*": "update",
     r"(?:the|an|its|first|page with) answers?": "result",
     r"(?:body|mesh|tissue|it) rings": "vibrates",
+    r"findings|(?:the|a|one|per|new) finding": "derived quantity",
+    r"(?:is|are|be) held(?! (?:for|between|by another|longer)|[.\"]|, then)|held (?:part|share|side)s?": "fixed",
     r"edge ring|ring of the part": "boundary of the active neighbourhood",
 }
 ANY = re.compile(r"(?<![\w/.=\"-])(?:" + "|".join(SENTENCES) + r")(?![\w/(=-]|\.\w)", re.I)

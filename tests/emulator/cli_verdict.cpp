@@ -137,7 +137,7 @@ TEST(LiveVerdict, MeasuredPointsAreInTheFigure) {
   const std::string page = test::read_file(result / "report.html");
   EXPECT_TRUE(has(page, " (model)</span></p><p>Measured and model agree: ")) << "the verdict first";
   EXPECT_TRUE(has(page, " allowed).</p>")) << page;
-  EXPECT_TRUE(has(page, "<p>Beside the device: "));
+  EXPECT_TRUE(has(page, "id=\"beside-the-device\">Beside the device</h2>"));
   EXPECT_EQ(test::faults_of_pages(result, {"report.html"}, test::Scheme::light),
             std::vector<std::string>{});
 }

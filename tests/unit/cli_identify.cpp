@@ -92,6 +92,8 @@ TEST_F(IdentifyVerb, WritesAFolderWhoseScenarioRepeatsTheCurve) {
       << "gnuplot omits a label that has no place";
 
   EXPECT_NE(read_file(result / "report.html").find("Young&#39;s modulus "), std::string::npos);
+  EXPECT_NE(read_page(result / "report.html").find("<p>Tissue: skin, nu 0.45; "),
+            std::string::npos);
   EXPECT_NE(read_file(result / "report.html")
                 .find("palpate identify measured.csv press.toml --unknown &#39;tissue.young_modulus"
                       "=1..500 kPa&#39;<"),

@@ -67,7 +67,7 @@ TEST_F(RunBodies, a_side_press_without_a_base_behind_it_is_said_to_bend) {
   const std::string finger = "towards = \"-x\"\nat = [\"12 mm\", \"6 mm\", \"18 mm\"]\n";
   const auto bends = [](const Ended& ended) {
     EXPECT_EQ(ended.code, 0) << ended.err;
-    return ended.err.find("of the surface behind the press is held: the body bends") !=
+    return ended.err.find("of the surface behind the press is fixed: the body bends") !=
            std::string::npos;
   };
   EXPECT_TRUE(bends(run(shape, finger, "", "0.5 mm")));

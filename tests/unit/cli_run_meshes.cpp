@@ -309,7 +309,7 @@ TEST_F(RunMeshes, hertz_refuses_what_only_a_mesh_knows) {
       "[[step]]\nkind = \"indent\"\n[output]\nfigures = false\n[solver]\nmodel = \"hertz\"\n";
   const auto sentence = [](const std::string& reason) {
     return "press.toml:6:9: `hertz` cannot compute this scene: " + reason +
-           "; set `solver.model = \"coupled_springs\"`";
+           "; set `solver.model = \"auto\"`, which takes one that can";
   };
   const std::string cylinder = hertz + "[tissue]\nshape = { kind = \"cylinder\" }\n";
   expect_refused(cylinder + "[finger]\nspheres = 3\n", 2,

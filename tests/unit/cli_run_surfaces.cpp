@@ -41,7 +41,7 @@ TEST_F(RunSurfaces, are_refused_with_the_reason_and_a_remedy) {
     EXPECT_TRUE(says(ended, sentence)) << ended.err;
   };
   const std::string start = "press.toml:7:9: `hertz` cannot compute this scene: ";
-  const std::string mesh = "; set `solver.model = \"coupled_springs\"`";
+  const std::string mesh = "; set `solver.model = \"auto\"`, which takes one that can";
   refused(
       "y = \"-3 mm\"\n", 2,
       start + "the finger first touches an edge of the surface, where it has no curvature" + mesh);

@@ -42,7 +42,9 @@ TEST_F(SweepVerb, PlanRunStatusMerge) {
   EXPECT_TRUE(headline_of(page).ends_with(", not counting viscosity")) << headline_of(page);
   for (const char* line : {" % of the variance follows Young&#39;s modulus. Smallest in case ",
                            "(Young&#39;s modulus = ", "<p>Model: hertz in 6 of 6 cases.</p>",
-                           "<p>Neglected in 6 of 6 cases", "<p>6 of 6 cases completed, 0 failed"})
+                           "<p>Neglected in 6 of 6 cases", "<p>6 of 6 cases completed, 0 failed",
+                           "<p>Tissue: skin; half-space; pressed 0.2 mm by a sphere of radius 11 "
+                           "mm.</p>"})
     EXPECT_NE(read_page(page).find(line), std::string::npos) << line;
   const std::string said = read_file(page).substr(read_file(page).find("</span></p>"));
   EXPECT_LT(said.find("Smallest in case "), said.find("<p>Model")) << "the answer of the map";

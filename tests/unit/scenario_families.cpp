@@ -223,7 +223,7 @@ TEST_F(Files, TablesThatCannotBeUsed) {
       said("[tissue]\nmaterial = \"empty.toml#gel\"\n"),
       "press.toml:5:12: `material` does not know `gel`; known here: none; your own tables are "
       "written `file.toml#name`");
-  EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#gel\"\n"),
+  EXPECT_EQ(said("[tissue]\nmaterial = \"my.toml#gel\"\nviscosity = \"kelvin_voigt\"\n"),
             "press.toml:5:12: `my.toml#gel` has no `retardation_time`; give "
             "`tissue.retardation_time`, or write `tissue.viscosity = \"none\"`");
   EXPECT_EQ(said("[tissue]\nmaterial = \"bad.toml#gel\"\n"),
@@ -236,6 +236,28 @@ TEST_F(Files, TablesThatCannotBeUsed) {
   EXPECT_EQ(said("[tissue]\nmaterial = \"finger\"\n"),
             "press.toml:5:12: `finger` has a Poisson's ratio of 0.5, and a tissue needs less; set "
             "`tissue.poisson_ratio = 0.49`");
+}
+
+TEST_F(Files, AMaterialWithoutViscosityIsElasticUnlessViscosityIsAskedFor) {
+  write("my.toml", gel_table);
+  const std::string gel = "[tissue]\nmaterial = \"my.toml#gel\"\n";
+  const auto law = [&](const std::string& keys) {
+    return parse(keys, scenario(), {}).cases[0].scenario.tissue.viscosity;
+  };
+  EXPECT_EQ(law(press + gel), tissue::Viscosity::none);
+  EXPECT_EQ(law(press + gel + "[solver]\nmodel = \"coupled_springs\"\n"), tissue::Viscosity::none);
+  EXPECT_EQ(law(press + gel + "retardation_time = \"1 s\"\n"), tissue::Viscosity::kelvin_voigt);
+  EXPECT_EQ(law(press), tissue::Viscosity::kelvin_voigt) << "skin has a retardation time";
+  const std::string lacks =
+      "`my.toml#gel` has no `retardation_time`; give "
+      "`tissue.retardation_time`, or write `tissue.viscosity = \"none\"`";
+  EXPECT_EQ(said(gel + "[contact]\nviscosity = \"tissue\"\n"), "press.toml:5:12: " + lacks);
+  try {
+    (void)parse("schema = 1\n" + gel + "[[step]]\nkind = \"creep\"\n", scenario(), {});
+    ADD_FAILURE() << "creep without a law of time";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(lacks), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(Files, ATableNeedsThreeNumbers) {

@@ -247,7 +247,18 @@ TEST(Refusals, Types) {
        "press.toml:5:17: `display_scale` wants a table, got an integer `2`; write it as "
        "`display_scale = { name = 1 }`"},
       {"[tissue]\nmesh = { cells = [3.0, 4, 6] }\n",
-       "press.toml:5:19: `cells` wants a whole number, got a number `3.0`; write it as `1`"},
+       "press.toml:5:19: `cells` wants a whole number, got a number `3.0`; write it as `3`"},
+      {"[finger]\nspheres = 2.5\n",
+       "press.toml:5:11: `spheres` wants a whole number, got a number `2.5`; write it as `spheres "
+       "= "
+       "2` or `3`"},
+      {"[finger]\nspheres = 0.5\n",
+       "press.toml:5:11: `spheres` wants a whole number, got a number `0.5`; write it as `spheres "
+       "= "
+       "1`"},
+      {"[finger]\nspheres = 99.5\n",
+       "press.toml:5:11: `spheres` wants a whole number, got a number `99.5`; write it as `spheres "
+       "= 1`"},
   });
   EXPECT_EQ(refusal("step = 3\n"),
             "press.toml:1:8: `step` wants a list of tables, got an integer; write `[[step]]`");
@@ -301,8 +312,8 @@ TEST(Refusals, OneMistakeIsOneMessage) {
   // The wrong depth must not make the next step look shallow, nor the rows too many.
   EXPECT_EQ(
       refusal("[[step]]\nkind = \"indent\"\nto = \"1e9 mm\"\n[[step]]\nkind = \"hold\"\n"),
-      "press.toml:3:6: `to` of 1e+09 mm is deeper than the finger's radius of 11 mm, where no "
-      "Hertz contact is left; press less deep");
+      "press.toml:3:6: `to` of 1e+09 mm is deeper than the finger's radius of 11 mm, and a "
+      "sphere presses with its lower half; press less deep, or give a larger `finger.radius`");
   EXPECT_EQ(refusal(press + "[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[[step]]\nkind = "
                             "\"retract\"\nto = \"1.5 mm\"\n"),
             "press.toml:6:6: `indent` goes to 1 mm, which is not below the displacement of 2 mm "

@@ -49,9 +49,10 @@ TEST(Steps, AStepToAForceLeavesTheTravelOpen) {
 }
 
 TEST(Steps, StayInsideTheSpecimen) {
-  EXPECT_EQ(refusal(step("indent", "12 mm")),
-            "press.toml:3:6: `to` of 12 mm is deeper than the finger's radius of 11 mm, where no "
-            "Hertz contact is left; press less deep");
+  EXPECT_EQ(
+      refusal(step("indent", "12 mm")),
+      "press.toml:3:6: `to` of 12 mm is deeper than the finger's radius of 11 mm, and a "
+      "sphere presses with its lower half; press less deep, or give a larger `finger.radius`");
   EXPECT_EQ(refusal(step("indent", "4 mm") +
                     "[tissue]\nshape = { size = [\"60 mm\", \"60 mm\", \"4 mm\"] }\n"),
             "press.toml:3:6: `to` of 4 mm presses through the specimen, which is 4 mm high; press "
