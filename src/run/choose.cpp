@@ -315,6 +315,12 @@ class Chooser {
       const double seconds = e.rate > 0.0 ? e.travel / e.rate : HUGE_VAL;
       const SizeEffect found = size_effect(asked_, case_.folder, choice_.touch, seconds, shapes_);
       if (found.nodes == 0) return;
+      // Where the body yields, a force needs a longer way than Hertz's depth.
+      if (const Estimates farther = estimate(asked_, choice_.touch, yields(found));
+          farther.travel > e.travel) {
+        choice_.expected = farther;
+        return measure();
+      }
       if (!formula && scene::refines(asked_)) {
         e.swing = swing(found, e, choice_.touch, asked_.tissue);
         e.inertia += e.swing;

@@ -260,6 +260,10 @@ SizeEffect size_effect(const scenario::Resolved& scenario, const std::string& fo
           high.nodes};
 }
 
+double yields(const SizeEffect& size) {
+  return std::max(0.0, 1.0 - depth_share(size.softer)) / (1.0 + size.softer);
+}
+
 double swing(const SizeEffect& size, const scene::Estimates& estimates,
              const scene::SurfaceTouch& touch, const scenario::Resolved::Tissue& tissue) {
   const double change = estimates.tissue_share * size.softer;

@@ -41,6 +41,10 @@ struct SizeEffect {
                                      const scene::SurfaceTouch& touch, double seconds,
                                      scene::SpecimenShapes& shapes);
 
+// How far the body yields under a force that has Hertz's depth, over that: as a spring behind the
+// contact.
+[[nodiscard]] double yields(const SizeEffect& size);
+
 // By how much such a body swings about its static force, relative to it, where the finger starts
 // at its rate: its mass on what it yields beyond the formula, behind the spring of the contact.
 //                                                                   docs/theory.md [swing]

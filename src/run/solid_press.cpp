@@ -49,7 +49,8 @@ double stiff_skin(const scene::Scene& scene) {
 
 SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
   std::size_t count = meshes_for(scene.scenario.solver.tolerance);
-  deepest_ = scene::deepest_travel(scene.scenario, scene.finger.whole);
+  deepest_ =
+      scene::deepest_travel(scene.scenario, scene.finger.whole, scene.choice.expected.yields);
   // Elements much wider than a wall make it too stiff, by 2.5 times where they are eight times as
   // wide, and so do those wider than a stiff skin that bends, by up to 14 %. They are smaller
   // there, and a second mesh says what is left of that.

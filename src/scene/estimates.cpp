@@ -169,7 +169,7 @@ double edge_bound(double x) {
 
 }  // namespace
 
-Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
+Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch, double yields) {
   Estimates found;
   const scenario::Resolved::Tissue& tissue = scenario.tissue;
   const contact::Elastic body{tissue.young_modulus, tissue.poisson_ratio};
@@ -186,7 +186,8 @@ Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch
       law.radius = 1.0 / std::sqrt(k_1 * k_2);
     }
   }
-  found.travel = deepest_travel(scenario, law);
+  found.yields = yields;
+  found.travel = deepest_travel(scenario, law, yields);
   found.rate = fastest_rate(scenario);
   found.contact_radius = contact::hertz::contact_radius(found.travel, law.radius);
 

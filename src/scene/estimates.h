@@ -32,12 +32,15 @@ struct Estimates {
   double deep_bound = 0.0;       // of what large strains change
   double inertia = 0.0;          // change by waves that the contact radiates, and by `swing`
   double swing = 0.0;            // the part of a body that swings as a whole
+  double yields = 0.0;           // what the body yields under a force, over Hertz's depth
   double curvature_ratio = 1.0;  // (1/R + kappa_1) / (1/R + kappa_2)
   std::optional<contact::DepthRatio> depth_ratio;  // of wide flat tissue of one kind
 };
 
-// The estimates for a scenario with a finger, from what is known of the surface.
-[[nodiscard]] Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch);
+// The estimates for a scenario with a finger, from what is known of the surface and of how far the
+// body yields.
+[[nodiscard]] Estimates estimate(const scenario::Resolved& scenario, const SurfaceTouch& touch,
+                                 double yields = 0.0);
 
 // By how much of the final strain a specimen rings about its law of time in steps with inertia: by
 // what it strains at once under a load that jumps. Relaxation starts in its static shape and does

@@ -150,9 +150,10 @@ struct Finger {
 
 [[nodiscard]] Finger make_finger(const scenario::Resolved& scenario);
 
-// The deepest travel of the loading history, m; a force is converted into Hertz's depth.
+// The deepest travel of the loading history, m; a force is converted into Hertz's depth, and what
+// the body yields over that (Estimates::yields).
 [[nodiscard]] double deepest_travel(const scenario::Resolved& scenario,
-                                    const contact::SphereLaw& law);
+                                    const contact::SphereLaw& law, double yields = 0.0);
 
 constexpr double most_poisson_ratio = 0.4995;  // in a mesh; larger values are reduced to it
 // The elastic properties of the tissue and of the regions, in the order of a mesh's numbers. A mesh

@@ -366,13 +366,17 @@ std::optional<std::string> beyond(scenario::Model model, const scenario::Resolve
   return std::nullopt;
 }
 
-double deepest_travel(const scenario::Resolved& scenario, const contact::SphereLaw& law) {
+double deepest_travel(const scenario::Resolved& scenario, const contact::SphereLaw& law,
+                      double yields) {
   double travel = 0.0;
   for (const scenario::Step& step : scenario.steps)
-    if (const auto* indent = std::get_if<scenario::Indent>(&step))
-      travel = std::max(travel, indent->to.second ? contact::hertz::depth(indent->to.value,
-                                                                          law.radius, law.modulus)
-                                                  : indent->to.value);
+    if (const auto* indent = std::get_if<scenario::Indent>(&step)) {
+      const double to = indent->to.value;
+      travel =
+          std::max(travel, indent->to.second
+                               ? (1.0 + yields) * contact::hertz::depth(to, law.radius, law.modulus)
+                               : to);
+    }
   return travel;
 }
 

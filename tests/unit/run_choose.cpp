@@ -567,17 +567,25 @@ TEST(Choose, ABodyOfSeveralPartsIsMeasured) {
 }
 
 TEST(Choose, AHollowBodyIsNoHalfSpace) {
-  const auto wall = [](const char* kind) {
-    return choose(read(std::string("[tissue]\nviscosity = \"none\"\nshape = ") + kind +
-                       "\n[finger]\nmaterial = \"rigid\"\nradius = \"6 mm\"\n[[step]]\nkind = "
-                       "\"indent\"\nto = \"0.5 mm\"\n"));
+  const auto wall = [](const std::string& to) {
+    return choose(read(
+        "[tissue]\nviscosity = \"none\"\nshape = { file = \"" PALPATE_SOURCE_DIR
+        "/tests/cases/shell12.off\", unit = \"mm\" }\n[finger]\nmaterial = \"rigid\"\nradius = "
+        "\"6 mm\"\n[[step]]\nkind = \"indent\"\nto = \"" +
+        to + "\"\n"));
   };
-  const std::string shell =
-      "{ file = \"" PALPATE_SOURCE_DIR "/tests/cases/shell12.off\", unit = \"mm\" }";
-  const Choice hollow = wall(shell.c_str());
+  const Choice hollow = wall("0.5 mm");
   EXPECT_LT(hollow.expected.size, -0.1);
   EXPECT_NEAR(hollow.touch.thickness, 0.012, 0.0005);
   EXPECT_NE(hollow.chosen.solver.model, Model::hertz);
+
+  // A press to the force of that displacement takes the same way, which Hertz's depth is not.
+  const contact::SphereLaw law = scene::make_finger(hollow.chosen).whole;
+  const double force =
+      (1.0 + hollow.expected.size) * contact::hertz::force(0.5e-3, law.radius, law.modulus);
+  const Choice pressed = wall(std::to_string(1e6 * force) + " uN");
+  EXPECT_LT(contact::hertz::depth(force, law.radius, law.modulus), 0.45e-3);
+  EXPECT_NEAR(pressed.expected.travel, 0.5e-3, 0.05 * 0.5e-3);
 }
 
 // The ends of a lying cylinder within two contact radii are the solid's; a search leaves it out.
