@@ -11,6 +11,8 @@
 #include "run/pace.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
+#include "run/size_effect.h"
+#include "run/solid_press.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"
 #include "scene/specimen_shape.h"
@@ -100,15 +102,44 @@ std::optional<double> share_done(const scene::Scene& scene, const record::CaseRe
   return time > 0.0 && whole > 0.0 ? std::optional(std::min(1.0, time / whole)) : std::nullopt;
 }
 
+namespace {
+
+// What a press of the solid takes, by a part of it that takes as long as its meshes did, or `least`
+// s: nothing if the finger slides, as every place of that has a mesh.
+std::optional<double> seconds_of_solid(const scene::Scene& scene, double least) {
+  if (!scene.solid || finger_way(scene.scenario).size() > 1) return std::nullopt;
+  const double before = processor_seconds();
+  const Stopwatch watch;
+  SolidPress press(scene);
+  const double of_meshes = processor_seconds() - before;
+  mechanics::Touch touch;
+  touch.travel = scene::deepest_travel(scene.scenario, scene.finger.whole);
+  try {
+    const StopScope deadline(std::max(least, watch.seconds()));
+    (void)press.find({}, touch);
+    return processor_seconds() - before;
+  } catch (const Stopped&) {
+    constexpr double first_step = 1.0 / 16.0;  // of a wall that gives way, as such presses take long
+    return of_meshes +
+           (processor_seconds() - before - of_meshes) / std::max(first_step, press.progress());
+  }
+}
+
+}  // namespace
+
 double expected_seconds(const std::vector<scene::Scene>& scenes) {
   constexpr double longest = 3.0;  // s
-  // `solid` has no rows before its last mesh is done; most such cases are far.
+  // `solid` has no rows of a slide before its last mesh is done; most such cases are far.
   constexpr double far = 1.0 / 3.0;
   const Stopwatch watch;
   double sum = 0.0;
   std::size_t tried = 0;
   for (; tried < scenes.size() && watch.seconds() < longest; ++tried) {
     const scene::Scene& scene = scenes[(scenes.size() / 2 + tried) % scenes.size()];
+    if (const auto seconds = seconds_of_solid(scene, longest)) {
+      sum += *seconds;
+      continue;
+    }
     const StopScope deadline(longest - watch.seconds());
     const double before = processor_seconds();
     const record::CaseRecord record = run_case(scene);

@@ -279,6 +279,18 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
         "are taken as they are; a finer surface has less of a difference between the two");
 }
 
+double SolidPress::progress() const {
+  double done = 0.0;
+  double all = 0.0;
+  for (const auto& press : presses_) {
+    const auto nodes = static_cast<double>(press->press().body().mesh.nodes.size());
+    const double work = nodes * nodes;  // of a factorisation by nested dissection
+    all += work;
+    done += work * press->progress();
+  }
+  return done / all;
+}
+
 geometry::TetMesh SolidPress::corners() const {
   const solid::Mesh& whole = presses_.back()->press().body().mesh;
   geometry::TetMesh mesh;

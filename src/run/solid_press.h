@@ -41,6 +41,8 @@ class SolidPress {
   [[nodiscard]] geometry::TetMesh corners() const;
 
   [[nodiscard]] std::size_t meshes() const { return presses_.size(); }
+  // How much of the work of a press to the deepest travel has been done, a fraction.
+  [[nodiscard]] double progress() const;
   // The displaced surface under a touch of find(), on a mesh counted from the coarsest; empty
   // without contact.
   [[nodiscard]] solid::FingerPress::OuterSurface surface(std::size_t mesh,

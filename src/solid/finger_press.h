@@ -1,6 +1,7 @@
 // A finger on a solid: the force at any travel and on the way of slides.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -83,6 +84,13 @@ class FingerPress {
   [[nodiscard]] double share() const { return order_.share; }
   // Whether a wall gives way, as far as the curve has been found, so that it is found in steps.
   [[nodiscard]] bool buckles() const { return in_steps_ && !(may_buckle() && is_power_law()); }
+  // How much of the curve to the order's travel has been found, a fraction: of three points, or of
+  // the steps of a wall that gives way.
+  [[nodiscard]] double progress() const {
+    constexpr double points = 3.0;
+    return std::min(1.0, in_steps_ ? tissue_.reached / (order_.share * order_.deepest)
+                                   : static_cast<double>(tissue_.points.size()) / points);
+  }
   // The displacements (m) between which the force first falls by a fifth or more, as far as the
   // curve has been found: the wall snaps through.
   [[nodiscard]] std::optional<std::pair<double, double>> snap() const;
