@@ -48,7 +48,7 @@ Surface piece_of(const Surface& surface, std::span<const int> triangles) {
 }
 
 Surface with_halved_edges(Surface surface, std::size_t count) {
-  std::map<std::array<int, 2>, std::vector<int>> sides;    // an edge's triangles
+  std::map<std::array<int, 2>, std::vector<int>> sides;     // an edge's triangles
   std::set<std::pair<double, std::array<int, 2>>> longest;  // the negative of its length, m^2
   const auto edge_of = [](int a, int b) { return std::array{std::min(a, b), std::max(a, b)}; };
   const auto key = [&](const std::array<int, 2>& edge) {

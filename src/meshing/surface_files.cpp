@@ -56,7 +56,6 @@ void add_facet(const std::array<Vec3, 3>& corners, Polygons& polygons) {
   polygons.corners.push_back({next, next + 1, next + 2});
 }
 
-
 // Appends a face's corners, which count from `first`, among so many vertices.
 void add_face(const TableLines& lines, std::vector<int>&& corners, int first, std::size_t vertices,
               Polygons& polygons) {

@@ -52,9 +52,10 @@ struct FileMesh {
 
 // Meshes the body inside a surface that has passed check_closed(), with inclusions inside. A
 // surface with as many vertices as nodes are asked for, or with edges below half of those asked
-// for, is coarsened first, and one with needles is remeshed: see surface_remeshing.h. Edges of walls that
-// are too thin for nodes inside are halved. If there is still no mesh near the number of nodes, the mesh has the spacing of the surface. `time_limit` (s)
-// is that of TetGen for each attempt. Throws MeshError as tetgen_body() and add_inclusion() do.
+// for, is coarsened first, and one with needles is remeshed: see surface_remeshing.h. Edges of
+// walls that are too thin for nodes inside are halved. If there is still no mesh near the number of
+// nodes, the mesh has the spacing of the surface. `time_limit` (s) is that of TetGen for each
+// attempt. Throws MeshError as tetgen_body() and add_inclusion() do.
 [[nodiscard]] FileMesh tetgen_file(geometry::Surface surface,
                                    std::span<const geometry::Inclusion> inclusions,
                                    const Target& target, double time_limit);

@@ -104,39 +104,47 @@ std::optional<double> share_done(const scene::Scene& scene, const record::CaseRe
 
 namespace {
 
-// What a press of the solid takes, by a part of it that takes as long as its meshes did, or `least`
-// s: nothing if the finger slides, as every place of that has a mesh.
-std::optional<double> seconds_of_solid(const scene::Scene& scene, double least) {
+// How far a case is that was stopped where nothing says it: most such cases are far.
+constexpr double far = 1.0 / 3.0;
+
+// What a press of the solid takes, by its meshes and as much of it as `patience` (s) allows for
+// each; nothing if the finger slides, as every place of that has a mesh.
+std::optional<double> seconds_of_solid(const scene::Scene& scene, double patience) {
   if (!scene.solid || finger_way(scene.scenario).size() > 1) return std::nullopt;
-  const double before = processor_seconds();
   const Stopwatch watch;
-  SolidPress press(scene);
-  const double of_meshes = processor_seconds() - before;
-  mechanics::Touch touch;
-  touch.travel = scene::deepest_travel(scene.scenario, scene.finger.whole);
+  double spent = -processor_seconds();
+  double of_meshes = 0.0;
+  std::optional<SolidPress> press;
   try {
-    const StopScope deadline(std::max(least, watch.seconds()));
-    (void)press.find({}, touch);
-    return processor_seconds() - before;
+    {
+      const StopScope deadline(3.0 * patience);
+      press.emplace(scene);
+    }
+    of_meshes = spent + processor_seconds();
+    const double busy = std::max(1.0, watch.seconds() / of_meshes);  // with other work
+    const StopScope deadline(busy * patience);
+    mechanics::Touch touch;
+    touch.travel = scene::deepest_travel(scene.scenario, scene.finger.whole);
+    (void)press->find({}, touch);
+    return spent + processor_seconds();
   } catch (const Stopped&) {
-    constexpr double first_step = 1.0 / 16.0;  // of a wall that gives way, as such presses take long
-    return of_meshes +
-           (processor_seconds() - before - of_meshes) / std::max(first_step, press.progress());
+    spent += processor_seconds();
+    if (!press) return spent / far;
+    return of_meshes + (spent - of_meshes) / press->progress();
   }
 }
 
 }  // namespace
 
 double expected_seconds(const std::vector<scene::Scene>& scenes) {
-  constexpr double longest = 3.0;  // s
-  // `solid` has no rows of a slide before its last mesh is done; most such cases are far.
-  constexpr double far = 1.0 / 3.0;
+  constexpr double longest = 3.0;    // s
+  constexpr double patience = 10.0;  // s, for a press by `solid`
   const Stopwatch watch;
   double sum = 0.0;
   std::size_t tried = 0;
   for (; tried < scenes.size() && watch.seconds() < longest; ++tried) {
     const scene::Scene& scene = scenes[(scenes.size() / 2 + tried) % scenes.size()];
-    if (const auto seconds = seconds_of_solid(scene, longest)) {
+    if (const auto seconds = seconds_of_solid(scene, patience)) {
       sum += *seconds;
       continue;
     }

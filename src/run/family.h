@@ -38,7 +38,7 @@ void run_programme(const scene::Scene& scene, record::CaseRecord& record);
                                                const record::CaseRecord& record);
 
 // The processor time (s) of all cases after their set-up, from running some of them for up to about
-// three seconds, or for twice the time of the meshes of `solid`. A case that is not finished then
+// three seconds, or of `solid` up to 40. A case that is not finished then
 // counts by the share of its loading history, or of the curve of `solid`.
 [[nodiscard]] double expected_seconds(const std::vector<scene::Scene>& scenes);
 

@@ -247,7 +247,8 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   const geometry::CurvatureEstimate found = curvature_of_file(surface, first.at, scenario);
   if (!found.known()) {
     touch.cannot = "the surface's curvature at " + place_text(scenario, touch.position) +
-                   ", where the finger touches it, cannot be estimated: " + std::string(geometry::explanation(found.status));
+                   ", where the finger touches it, cannot be estimated: " +
+                   std::string(geometry::explanation(found.status));
     return touch;
   }
   touch.curvature = geometry::turned_to(found.curvature, surface.normal(first.at));

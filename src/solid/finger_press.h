@@ -84,12 +84,14 @@ class FingerPress {
   [[nodiscard]] double share() const { return order_.share; }
   // Whether a wall gives way, as far as the curve has been found, so that it is found in steps.
   [[nodiscard]] bool buckles() const { return in_steps_ && !(may_buckle() && is_power_law()); }
-  // How much of the curve to the order's travel has been found, a fraction: of three points, or of
-  // the steps of a wall that gives way.
+  // How much of the curve to the order's travel has been found, a fraction: of the steps of a wall
+  // that gives way. Before that is known three points may be enough, or sixteen steps follow: the
+  // middle of the two, as a ratio, is taken.
   [[nodiscard]] double progress() const {
-    constexpr double points = 3.0;
-    return std::min(1.0, in_steps_ ? tissue_.reached / (order_.share * order_.deepest)
-                                   : static_cast<double>(tissue_.points.size()) / points);
+    constexpr double points = 7.5;  // sqrt(3 (3 + 16))
+    const double way = tissue_.reached / (order_.share * order_.deepest);
+    const double found = static_cast<double>(tissue_.points.size()) / points;
+    return std::clamp(in_steps_ || way >= 1.0 ? way : found, 0.5 / points, 1.0);
   }
   // The displacements (m) between which the force first falls by a fifth or more, as far as the
   // curve has been found: the wall snaps through.

@@ -406,10 +406,10 @@ TEST(HalvedEdges, LeaveTheSurfaceWhereItIs) {
   const double even = spacing_of(made);
   for (const auto& triangle : made.triangles)
     for (std::size_t i = 0; i < 3; ++i)
-      EXPECT_LT((made.vertices[as_index(triangle[i])] -
-                 made.vertices[as_index(triangle[(i + 1) % 3])])
-                    .norm(),
-                2.5 * even);
+      EXPECT_LT(
+          (made.vertices[as_index(triangle[i])] - made.vertices[as_index(triangle[(i + 1) % 3])])
+              .norm(),
+          2.5 * even);
 }
 
 TEST(FileMesh, KeepsAGoodSurface) {
