@@ -104,9 +104,10 @@ TEST_F(BrokenSurfaces, faces_of_two_corners) {
   EXPECT_EQ(complaint("a.off", with(good_off, "3 0 1 3", "2 0 1")),
             "input: a.off:8: a face wants three corners or more, got 2; the file may be cut short: "
             "export it again");
-  EXPECT_EQ(complaint("a.ply", with(good_ply, "3 0 1 3", "2 0 1")),
-            "input: a.ply:15: a face wants three corners or more, got 2; the file may be cut short: "
-            "export it again");
+  EXPECT_EQ(
+      complaint("a.ply", with(good_ply, "3 0 1 3", "2 0 1")),
+      "input: a.ply:15: a face wants three corners or more, got 2; the file may be cut short: "
+      "export it again");
   const std::size_t second = binary_ply().size() - 3 * 13;
   EXPECT_EQ(complaint("b.ply", with(binary_ply(), second, '\0')),
             "input: b.ply: face 1 (counting from 0) wants three corners or more, got 0; export the "
