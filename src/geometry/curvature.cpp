@@ -118,7 +118,8 @@ std::string_view explanation(StarStatus status) {
       return "the vertex lies on a sharp edge; say by a triangle which side is meant";
     case StarStatus::too_few: return "too few neighbours; refine the surface or take more rings";
     case StarStatus::degenerate:
-      return "the neighbours do not span a surface; mend the triangles there";
+      return "the vertices around lie on one or two lines, as those of long strips do; divide long "
+             "triangles across";
   }
   return "";
 }

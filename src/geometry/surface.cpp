@@ -2,6 +2,8 @@
 #include "geometry/surface.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace palpate::geometry {
 OuterSurface outer_surface(const TetMesh& mesh) {
@@ -43,6 +45,45 @@ Surface piece_of(const Surface& surface, std::span<const int> triangles) {
     piece.triangles.push_back(corners);
   }
   return piece;
+}
+
+Surface with_halved_edges(Surface surface, std::size_t count) {
+  std::map<std::array<int, 2>, std::vector<int>> sides;     // an edge's triangles
+  std::set<std::pair<double, std::array<int, 2>>> longest;  // the negative of its length, m^2
+  const auto edge_of = [](int a, int b) { return std::array{std::min(a, b), std::max(a, b)}; };
+  const auto key = [&](const std::array<int, 2>& edge) {
+    const Vec3 along = surface.vertices[as_index(edge[1])] - surface.vertices[as_index(edge[0])];
+    return std::pair(-along.squaredNorm(), edge);
+  };
+  const auto join = [&](int t) {
+    const auto& triangle = surface.triangles[as_index(t)];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto edge = edge_of(triangle[i], triangle[(i + 1) % 3]);
+      sides[edge].push_back(t);
+      longest.insert(key(edge));
+    }
+  };
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) join(t);
+  while (surface.vertices.size() < count && !longest.empty()) {
+    const std::array<int, 2> edge = longest.begin()->second;
+    longest.erase(longest.begin());
+    const auto middle = static_cast<int>(surface.vertices.size());
+    surface.vertices.emplace_back(
+        0.5 * (surface.vertices[as_index(edge[0])] + surface.vertices[as_index(edge[1])]));
+    const std::vector<int> beside = sides[edge];
+    for (const int t : beside) {
+      auto other = surface.triangles[as_index(t)];
+      for (std::size_t i = 0; i < 3; ++i)
+        std::erase(sides[edge_of(other[i], other[(i + 1) % 3])], t);
+      std::ranges::replace(surface.triangles[as_index(t)], edge[0], middle);
+      std::ranges::replace(other, edge[1], middle);
+      surface.triangles.push_back(other);
+      join(t);
+      join(static_cast<int>(surface.triangles.size()) - 1);
+    }
+    sides.erase(edge);
+  }
+  return surface;
 }
 
 double area(const Surface& surface) {

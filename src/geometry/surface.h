@@ -31,6 +31,10 @@ struct OuterSurface {
 
 [[nodiscard]] double area(const Surface& surface);  // m^2
 
+// The closed surface with more vertices, `count` in all: time and again the longest edge gets one
+// in its middle.
+[[nodiscard]] Surface with_halved_edges(Surface surface, std::size_t count);
+
 // The interior of a closed surface; volume < 0 if the triangles face inwards.
 //                                                                           docs/theory.md [volume]
 struct Enclosed {

@@ -27,12 +27,13 @@ constexpr double most_items = 1e9;      // fits an int
 constexpr std::size_t stl_header = 84;  // bytes: 80 of text, the number of facets
 constexpr std::size_t stl_facet = 50;   // bytes: a normal, three corners, two spare ones
 
-void expect_text(const std::string& path, const char* format) {
+TableLines lines_of(const std::string& path, const char* format) {
   const std::string content = read_text(path);
   const std::size_t end = content.find_last_not_of('\0') + 1;  // zero bytes may follow
   if (!is_text(end == 0 ? content : content.substr(0, end)))
     fail(path, std::string("is not a text file in ") + format +
                    " format; export it again, or give it the ending of its real format");
+  return TableLines(path);
 }
 
 // The words `first` to `first` + 2 as coordinates.
@@ -53,18 +54,6 @@ void add_facet(const std::array<Vec3, 3>& corners, Polygons& polygons) {
   const auto next = static_cast<int>(polygons.vertices.size());
   polygons.vertices.insert(polygons.vertices.end(), corners.begin(), corners.end());
   polygons.corners.push_back({next, next + 1, next + 2});
-}
-
-// Runs a pass over the lines. Mistakes in the content become MeshError.
-template <typename Pass>
-Polygons over_lines(const std::string& path, const char* format, const Pass& pass) {
-  expect_text(path, format);
-  TableLines lines(path);
-  try {
-    return pass(std::move(lines));
-  } catch (const InputError& error) {
-    throw MeshError(error.what());
-  }
 }
 
 // Appends a face's corners, which count from `first`, among so many vertices.
@@ -219,7 +208,7 @@ Polygons binary_stl(const std::string& path, const std::string& content) {
 }  // namespace
 
 void fail(const std::string& path, const std::string& message) {
-  throw MeshError(path + ": " + message);
+  throw InputError({path}, message);
 }
 
 bool is_text(const std::string& content) {
@@ -260,16 +249,16 @@ std::string wrong_corners(const std::string& face, const std::vector<int>& corne
   return "";
 }
 
-Polygons read_obj(const std::string& path) { return over_lines(path, "OBJ", obj); }
+Polygons read_obj(const std::string& path) { return obj(lines_of(path, "OBJ")); }
 
-Polygons read_off(const std::string& path) { return over_lines(path, "OFF", off); }
+Polygons read_off(const std::string& path) { return off(lines_of(path, "OFF")); }
 
 Polygons read_stl(const std::string& path) {
   const std::string content = read_text(path);
   // Many binary files begin with `solid` too. Their facet count, if below 2^24, contains a zero
   // byte, which text does not.
   if (content.empty() || !is_text(content)) return binary_stl(path, content);
-  return over_lines(path, "STL", ascii_stl);
+  return ascii_stl(lines_of(path, "STL"));
 }
 
 namespace {

@@ -18,15 +18,14 @@ struct Polygons {
 
 // Each function reads a file. Every face then has three corners or more, which are vertices of the
 // list, some perhaps twice; the corners of an STL's facets are vertices of their own. All
-// coordinates are finite. They throw InputError if the file cannot be read; MeshError,
-// with file, line or record and a remedy, if it is truncated, a number is malformed or a count is
-// wrong.
+// coordinates are finite. They throw InputError, with line or record where possible, if the file
+// cannot be read, is truncated, a number is malformed or a count is wrong.
 [[nodiscard]] Polygons read_obj(const std::string& path);
 [[nodiscard]] Polygons read_off(const std::string& path);
 [[nodiscard]] Polygons read_stl(const std::string& path);
 [[nodiscard]] Polygons read_ply(const std::string& path);
 
-// Throws MeshError for the file at `path`.
+// Throws InputError for the file at `path`.
 [[noreturn]] void fail(const std::string& path, const std::string& message);
 
 // Whether the bytes may be the text of a mesh: no control characters, no word longer than 200.
@@ -52,8 +51,7 @@ void no_comma(const TableLines& lines);
 // are dropped. Polygons are cut into triangles from one corner; triangles keep the order of the
 // file's faces. Normals, colours, texture and groups are ignored. Nothing is printed, and the
 // locale has no effect. The surface itself is not checked: see surface_repair.h.
-// Throws InputError if the file does not exist, cannot be read or has another ending; MeshError,
-// with file, line where possible, and a remedy, for all mistakes in its content.
+// Throws InputError if the file does not exist or has another ending, and as read_off() does.
 [[nodiscard]] geometry::Surface read_surface(const std::string& path, double metres_per_unit);
 
 // Writes a surface as .off or binary .stl, as the ending says, whole or not at all; coordinates are

@@ -315,11 +315,7 @@ Polygons read_ply(const std::string& path) {
   if (found.format == "ascii") {
     if (!is_text(content))
       fail(path, "is not a text file, though its header says `ascii`; export it again");
-    try {
-      return polygons(AsciiBody(path), elements, ends_with_faces);
-    } catch (const InputError& error) {
-      throw MeshError(error.what());
-    }
+    return polygons(AsciiBody(path), elements, ends_with_faces);
   }
   const bool big_endian = found.format == "binary_big_endian";
   if (!big_endian && found.format != "binary_little_endian")

@@ -286,9 +286,9 @@ class Search {
       throw TooFewNodes(
           text + " was found, as the surfaces alone have " + std::to_string(fewest_) + remedy,
           fewest_);
-    throw MeshError(text + " was found, the nearest has " +
-                    std::to_string(best_.mesh.nodes.size()) + " and " +
-                    std::to_string(best_.mesh.tetrahedra.size()) + remedy);
+    throw OtherNodes(text + " was found, the nearest has " +
+                     std::to_string(best_.mesh.nodes.size()) + " and " +
+                     std::to_string(best_.mesh.tetrahedra.size()) + remedy);
   }
 
  private:
@@ -445,11 +445,16 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
     return tetgen_body(body_of(surface, inclusions), wanted, time_limit);
   };
   std::exception_ptr failure;
+  bool other_nodes = false;
   const auto attempt = [&] {
     // The mesh keeps the surface's vertices, so that it cannot have fewer nodes.
     if (target.nodes > 0 && too_fine(surface, target)) return false;
     try {
       made.mesh = meshed(target);
+    } catch (const OtherNodes&) {
+      failure = std::current_exception();
+      other_nodes = true;
+      return false;
     } catch (const MeshError&) {
       if (target.nodes == 0) throw;
       failure = std::current_exception();
@@ -458,8 +463,21 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
     return true;
   };
   const bool asked = too_fine(surface, target) || needles > 0;
+  // Walls have no room for nodes inside: their surface gets them.
+  const auto split = [&] {
+    constexpr double share = 0.995;  // within `good_miss`
+    const auto wanted = static_cast<std::size_t>(share * target.nodes);
+    if (!other_nodes || surface.vertices.size() >= wanted) return false;
+    const std::size_t before = surface.triangles.size();
+    surface = geometry::with_halved_edges(std::move(surface), wanted);
+    made.warning += (made.warning.empty() ? "" : "; ") +
+                    std::string("edges of the surface were halved for a mesh of so many nodes: ") +
+                    std::to_string(before) + " triangles became " +
+                    std::to_string(surface.triangles.size());
+    return true;
+  };
   if (asked) (void)remesh();
-  if (attempt() || (!asked && remesh() && attempt())) return made;
+  if (attempt() || (!asked && remesh() && attempt()) || (split() && attempt())) return made;
   made.mesh = meshed({.edge_length = spacing_of(surface)});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)
     std::rethrow_exception(failure);

@@ -23,13 +23,18 @@ struct TooFewNodes : MeshError {
   int least;
 };
 
+// The meshes that were found have more or fewer nodes than the mesh may have.
+struct OtherNodes : MeshError {
+  using MeshError::MeshError;
+};
+
 // The mesh of a body. TetGen keeps every triangle of the surfaces and adds nodes inside only, so
 // the surfaces determine the smallest number of nodes; if that leaves too few nodes or triangles
 // that are too coarse, TetGen may split triangles. TetMesh::regions are the parts' `region`, or
 // empty if all are 0. `time_limit` in s, for all attempts together. The same arguments give the
 // same mesh. check() has accepted it. Throws MeshError as tetgen_surface() does, if a surface is
-// not closed or inside out, and if no mesh within 25 % of the target is found, as TooFewNodes where
-// that is why.
+// not closed or inside out, and if no mesh within 25 % of the target is found, as TooFewNodes or
+// OtherNodes where that is why.
 [[nodiscard]] geometry::TetMesh tetgen_body(const geometry::Body& body, const Target& target,
                                             double time_limit);
 
@@ -47,9 +52,10 @@ struct FileMesh {
 
 // Meshes the body inside a surface that has passed check_closed(), with inclusions inside. A
 // surface with as many vertices as nodes are asked for, or with edges below half of those asked
-// for, is coarsened first, and one with needles is remeshed: see surface_remeshing.h. If there is
-// still no mesh near the number of nodes, the mesh has the spacing of the surface. `time_limit` (s)
-// is that of TetGen for each attempt. Throws MeshError as tetgen_body() and add_inclusion() do.
+// for, is coarsened first, and one with needles is remeshed: see surface_remeshing.h. Edges of
+// walls that are too thin for nodes inside are halved. If there is still no mesh near the number of
+// nodes, the mesh has the spacing of the surface. `time_limit` (s) is that of TetGen for each
+// attempt. Throws MeshError as tetgen_body() and add_inclusion() do.
 [[nodiscard]] FileMesh tetgen_file(geometry::Surface surface,
                                    std::span<const geometry::Inclusion> inclusions,
                                    const Target& target, double time_limit);

@@ -246,7 +246,8 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   touch.to_edge = to_creases(surface, surface.position(first.at), surface.normal(first.at));
   const geometry::CurvatureEstimate found = curvature_of_file(surface, first.at, scenario);
   if (!found.known()) {
-    touch.cannot = "the surface's curvature at the contact cannot be estimated: " +
+    touch.cannot = "the surface's curvature at " + place_text(scenario, touch.position) +
+                   ", where the finger touches it, cannot be estimated: " +
                    std::string(geometry::explanation(found.status));
     return touch;
   }

@@ -190,6 +190,39 @@ TEST_F(RunBodies, a_turned_column_is_held_as_a_straight_one) {
   EXPECT_NEAR(force(), straight, 0.01 * straight);  // free below 18 mm it yields a third more
 }
 
+// A roll along y: no vertex lies between its two ends.
+TEST_F(RunBodies, long_strips_are_named_with_the_place_and_a_remedy) {
+  constexpr int strips = 24;
+  geometry::Surface roll;
+  for (int i = 0; i < strips; ++i)
+    for (const double y : {0.0, 0.06}) {
+      const double angle = 2.0 * M_PI * i / strips;
+      roll.vertices.emplace_back(0.02 * std::sin(angle), y, 0.02 * std::cos(angle));
+    }
+  roll.vertices.emplace_back(0.0, 0.0, 0.0);
+  roll.vertices.emplace_back(0.0, 0.06, 0.0);
+  for (int i = 0; i < strips; ++i) {
+    const int a = 2 * i;
+    const int b = 2 * ((i + 1) % strips);
+    for (const std::array<int, 3>& triangle : {std::array{a, b, b + 1},
+                                               {a, b + 1, a + 1},
+                                               {2 * strips, b, a},
+                                               {2 * strips + 1, a + 1, b + 1}})
+      roll.triangles.push_back(triangle);
+  }
+  write_off(folder_ / "roll.off", roll);
+  (void)run("shape = { kind = \"file\", file = \"roll.off\", unit = \"mm\" }\n", "");
+  const Ended ended =
+      palpate(folder_.path(), {"run", "press.toml", "--force", "--set", "solver.model=hertz"});
+  EXPECT_EQ(ended.code, 2) << ended.err;
+  EXPECT_TRUE(
+      says(ended,
+           "curvature at (0, 30, 20) mm, where the finger touches it, cannot be estimated: "
+           "the vertices around lie on one or two lines, as those of long strips do; divide "
+           "long triangles across"))
+      << ended.err;
+}
+
 TEST_F(RunBodies, a_press_on_what_is_held_is_refused) {
   const Ended ended = run("base_side = \"x\"\n" + column(0.0).substr(column(0.0).find("shape")),
                           "at = [\"12 mm\", \"6 mm\", \"12 mm\"]\ntowards = \"-x\"\n");

@@ -11,18 +11,18 @@ TEST_F(BrokenSurfaces, numbers_that_are_none) {
     const std::string want =
         "a coordinate wants a finite number, got `" + bad + "`; write it like `12.5` or `1.25e1`";
     EXPECT_EQ(complaint("a.obj", with(good_obj, "v 1 0 0", "v " + bad + " 0 0")),
-              "mesh: a.obj:2:3: " + want);
+              "input: a.obj:2:3: " + want);
     EXPECT_EQ(complaint("a.off", with(good_off, "1 0 0", "1 " + bad + " 0")),
-              "mesh: a.off:4:3: " + want);
+              "input: a.off:4:3: " + want);
     EXPECT_EQ(complaint("a.stl", with(good_stl, "vertex 0 1 0", "vertex 0 1 " + bad)),
-              "mesh: a.stl:5:12: " + want);
+              "input: a.stl:5:12: " + want);
     EXPECT_EQ(complaint("a.ply", with(good_ply, "\n1 0 0", "\n" + bad + " 0 0")),
-              "mesh: a.ply:11:1: `x` wants a finite number, got `" + bad +
+              "input: a.ply:11:1: `x` wants a finite number, got `" + bad +
                   "`; write it like `12.5` or `1.25e1`");
   }
   EXPECT_EQ(
       complaint("b.obj", with(good_obj, "v 1 0 0", "v 1e309 0 0")),
-      "mesh: b.obj:2:3: a coordinate wants a finite number, got `1e309`; write it like `12.5` "
+      "input: b.obj:2:3: a coordinate wants a finite number, got `1e309`; write it like `12.5` "
       "or `1.25e1`");
   EXPECT_NE(complaint("b.obj", with(good_obj, "v 1 0 0", "v 1e39 0 0")).find("is 1e+37 m long"),
             std::string::npos);
@@ -30,11 +30,11 @@ TEST_F(BrokenSurfaces, numbers_that_are_none) {
 
 TEST_F(BrokenSurfaces, decimal_commas) {
   const std::string want = "a number has a comma; write decimal points, and blanks between numbers";
-  EXPECT_EQ(complaint("a.obj", with(good_obj, "v 1 0 0", "v 1,5 0 0")), "mesh: a.obj:2: " + want);
-  EXPECT_EQ(complaint("a.off", with(good_off, "1 0 0", "1 0 0,5")), "mesh: a.off:4: " + want);
+  EXPECT_EQ(complaint("a.obj", with(good_obj, "v 1 0 0", "v 1,5 0 0")), "input: a.obj:2: " + want);
+  EXPECT_EQ(complaint("a.off", with(good_off, "1 0 0", "1 0 0,5")), "input: a.off:4: " + want);
   EXPECT_EQ(complaint("a.stl", with(good_stl, "vertex 0 1 0", "vertex 0 1,5 0")),
-            "mesh: a.stl:5: " + want);
-  EXPECT_EQ(complaint("a.ply", with(good_ply, "\n1 0 0", "\n1,5 0 0")), "mesh: a.ply:11: " + want);
+            "input: a.stl:5: " + want);
+  EXPECT_EQ(complaint("a.ply", with(good_ply, "\n1 0 0", "\n1,5 0 0")), "input: a.ply:11: " + want);
 }
 
 TEST_F(BrokenSurfaces, binary_numbers_that_are_none) {
@@ -42,11 +42,11 @@ TEST_F(BrokenSurfaces, binary_numbers_that_are_none) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   for (const float bad : {nan, inf, -inf}) {
     EXPECT_EQ(complaint("a.stl", with(binary_stl(), 84 + 50 + 12 + 4, bad)),
-              "mesh: a.stl: facet 1 has a coordinate that is not a finite number; export the file "
+              "input: a.stl: facet 1 has a coordinate that is not a finite number; export the file "
               "again");
     const std::size_t body = binary_ply().find("end_header\n") + 11;
     EXPECT_EQ(complaint("a.ply", with(binary_ply(), body + 12, bad)),
-              "mesh: a.ply: vertex 1 (counting from 0) has a coordinate that is not a finite "
+              "input: a.ply: vertex 1 (counting from 0) has a coordinate that is not a finite "
               "number; export it again");
   }
 }
@@ -54,26 +54,26 @@ TEST_F(BrokenSurfaces, binary_numbers_that_are_none) {
 TEST_F(BrokenSurfaces, vertices_that_are_not_there) {
   for (const std::string bad : {"5", "-5", "0"})
     EXPECT_EQ(complaint("a.obj", with(good_obj, "f 1 2 4", "f 1 2 " + bad)),
-              "mesh: a.obj:6: the face names vertex `" + std::string(bad == "-5" ? "0" : bad) +
+              "input: a.obj:6: the face names vertex `" + std::string(bad == "-5" ? "0" : bad) +
                   "`, but the vertices run from 1 to 4; the file may be cut short: export it "
                   "again");
   EXPECT_EQ(complaint("b.obj", with(good_obj, "f 1 2 4", "f 1 2 x/1")),
-            "mesh: b.obj:6:7: a corner wants the number of a vertex, got `x/1`; write it like "
+            "input: b.obj:6:7: a corner wants the number of a vertex, got `x/1`; write it like "
             "`12`, or `-1` for the last vertex so far");
   for (const std::string bad : {"4", "-1"}) {
     const std::string want = "the face names vertex `" + bad +
                              "`, but the vertices run from 0 to 3; the file may be cut short: "
                              "export it again";
     EXPECT_EQ(complaint("a.off", with(good_off, "3 0 1 3", "3 0 1 " + bad)),
-              "mesh: a.off:8: " + want);
+              "input: a.off:8: " + want);
     EXPECT_EQ(complaint("a.ply", with(good_ply, "3 0 1 3", "3 0 1 " + bad)),
-              "mesh: a.ply:15: " + want);
+              "input: a.ply:15: " + want);
   }
   const std::size_t last = binary_ply().size() - 4;
   for (const std::int32_t bad : {4, -1, std::numeric_limits<std::int32_t>::max()})
     EXPECT_EQ(
         complaint("b.ply", with(binary_ply(), last, bad)),
-        "mesh: b.ply: face 3 (counting from 0) names vertex `" + std::to_string(bad) +
+        "input: b.ply: face 3 (counting from 0) names vertex `" + std::to_string(bad) +
             "`, but the vertices run from 0 to 3; the file may be cut short: export it again");
 }
 
@@ -99,17 +99,18 @@ TEST_F(BrokenSurfaces, faces_with_a_vertex_twice) {
 
 TEST_F(BrokenSurfaces, faces_of_two_corners) {
   EXPECT_EQ(complaint("a.obj", with(good_obj, "f 1 2 4", "f 1 2")),
-            "mesh: a.obj:6: a face wants three corners or more, got 2; the file may be cut short: "
+            "input: a.obj:6: a face wants three corners or more, got 2; the file may be cut short: "
             "export it again");
   EXPECT_EQ(complaint("a.off", with(good_off, "3 0 1 3", "2 0 1")),
-            "mesh: a.off:8: a face wants three corners or more, got 2; the file may be cut short: "
+            "input: a.off:8: a face wants three corners or more, got 2; the file may be cut short: "
             "export it again");
-  EXPECT_EQ(complaint("a.ply", with(good_ply, "3 0 1 3", "2 0 1")),
-            "mesh: a.ply:15: a face wants three corners or more, got 2; the file may be cut short: "
-            "export it again");
+  EXPECT_EQ(
+      complaint("a.ply", with(good_ply, "3 0 1 3", "2 0 1")),
+      "input: a.ply:15: a face wants three corners or more, got 2; the file may be cut short: "
+      "export it again");
   const std::size_t second = binary_ply().size() - 3 * 13;
   EXPECT_EQ(complaint("b.ply", with(binary_ply(), second, '\0')),
-            "mesh: b.ply: face 1 (counting from 0) wants three corners or more, got 0; export the "
+            "input: b.ply: face 1 (counting from 0) wants three corners or more, got 0; export the "
             "file again");
 }
 
@@ -126,32 +127,32 @@ TEST_F(BrokenSurfaces, a_polygon_that_no_corner_sees_whole) {
 TEST_F(BrokenSurfaces, ply_headers) {
   const auto ply = [](const std::string& header) { return "ply\nformat ascii 1.0\n" + header; };
   EXPECT_EQ(complaint("a.ply", with(good_ply, "ascii", "utf8")),
-            "mesh: a.ply: has no known `format` in its header; write it as `ascii` or "
+            "input: a.ply: has no known `format` in its header; write it as `ascii` or "
             "`binary_little_endian`");
   EXPECT_EQ(complaint("a.ply", with(good_ply, "float y", "string y")),
-            "mesh: a.ply: line 5 of its header is not understood; export it again");
+            "input: a.ply: line 5 of its header is not understood; export it again");
   EXPECT_EQ(complaint("a.ply", with(good_ply, "float y", "float w")),
-            "mesh: a.ply: its vertices want `x`, `y` and `z` of type `float` or `double`; export "
+            "input: a.ply: its vertices want `x`, `y` and `z` of type `float` or `double`; export "
             "it again");
   EXPECT_EQ(complaint("a.ply", with(good_ply, "float y", "int y")),
-            "mesh: a.ply: its vertices want `x`, `y` and `z` of type `float` or `double`; export "
+            "input: a.ply: its vertices want `x`, `y` and `z` of type `float` or `double`; export "
             "it again");
   const std::string textured = complaint(
       "a.ply", with(good_ply, "vertex_indices\n",
                     "vertex_indices\nproperty list uchar float texcoord\n"));  // without its values
   EXPECT_NE(textured.find("the line ends before `texcoord`"), std::string::npos) << textured;
   EXPECT_EQ(complaint("a.ply", ply("end_header\n")),
-            "mesh: a.ply: its header wants an element `vertex` and an element `face`; export it "
+            "input: a.ply: its header wants an element `vertex` and an element `face`; export it "
             "again");
   EXPECT_EQ(complaint("a.ply", ply("element vertex 3\nelement face 1\nend_header\n")),
-            "mesh: a.ply: element `vertex` has no property; export it again");
+            "input: a.ply: element `vertex` has no property; export it again");
 }
 
 TEST_F(BrokenSurfaces, stl_lines_out_of_order) {
   EXPECT_EQ(complaint("a.stl", with(good_stl, "endloop\n", "")),
-            "mesh: a.stl:7: the line wants `endloop`, got `endfacet`; export the file again");
+            "input: a.stl:7: the line wants `endloop`, got `endfacet`; export the file again");
   EXPECT_EQ(complaint("a.stl", with(good_stl, "vertex 0 1 0\n", "")),
-            "mesh: a.stl:6: the line wants `vertex`, got `endloop`; export the file again");
+            "input: a.stl:6: the line wants `vertex`, got `endloop`; export the file again");
 }
 
 TEST_F(BrokenSurfaces, obj_lines_that_go_on) {
@@ -159,7 +160,7 @@ TEST_F(BrokenSurfaces, obj_lines_that_go_on) {
             complaint("a.obj", good_obj));
   EXPECT_EQ(
       complaint("a.obj", with(good_obj, "f 1 2 4", "f 1 \\\n  two \\\n4")),
-      "mesh: a.obj:7:3: a corner wants the number of a vertex, got `two`; write it like `12`, "
+      "input: a.obj:7:3: a corner wants the number of a vertex, got `two`; write it like `12`, "
       "or `-1` for the last vertex so far");
   EXPECT_EQ(complaint("a.obj", good_obj + "\\\n\\"), complaint("a.obj", good_obj));
 }

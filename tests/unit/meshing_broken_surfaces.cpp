@@ -61,46 +61,49 @@ TEST_F(BrokenSurfaces, files_that_cannot_be_read) {
 }
 
 TEST_F(BrokenSurfaces, empty_files) {
-  EXPECT_EQ(complaint("a.obj", ""), "mesh: a.obj: holds no faces; export the surface again");
+  EXPECT_EQ(complaint("a.obj", ""), "input: a.obj: holds no faces; export the surface again");
   EXPECT_EQ(complaint("b.obj", "# nothing\n"),
-            "mesh: b.obj: holds no faces; export the surface again");
+            "input: b.obj: holds no faces; export the surface again");
   EXPECT_EQ(complaint("a.off", ""),
-            "mesh: a.off: the file wants to begin with `OFF`; export it again, or give it the "
+            "input: a.off: the file wants to begin with `OFF`; export it again, or give it the "
             "ending of its real format");
-  EXPECT_EQ(complaint("a.ply", ""),
-            "mesh: a.ply: does not begin with `ply`; export it again, or give it the ending of its "
-            "real format");
+  EXPECT_EQ(
+      complaint("a.ply", ""),
+      "input: a.ply: does not begin with `ply`; export it again, or give it the ending of its "
+      "real format");
   EXPECT_EQ(complaint("a.stl", ""),
-            "mesh: a.stl: is neither an ASCII STL, which begins with `solid`, nor a binary one, "
+            "input: a.stl: is neither an ASCII STL, which begins with `solid`, nor a binary one, "
             "which would have 84 bytes for its 0 facets, not 0; it is cut short or of another "
             "format: export it again");
 }
 
 TEST_F(BrokenSurfaces, no_faces) {
   const std::string want = "holds no faces; export the surface again";
-  EXPECT_EQ(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "mesh: a.obj: " + want);
-  EXPECT_EQ(complaint("a.off", "OFF\n1 0 0\n0 0 0\n"), "mesh: a.off: " + want);
-  EXPECT_EQ(complaint("a.stl", "solid\nendsolid\n"), "mesh: a.stl: " + want);
-  EXPECT_EQ(complaint("b.stl", std::string(84, '\0')), "mesh: b.stl: " + want);
+  EXPECT_EQ(complaint("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "input: a.obj: " + want);
+  EXPECT_EQ(complaint("a.off", "OFF\n1 0 0\n0 0 0\n"), "input: a.off: " + want);
+  EXPECT_EQ(complaint("a.stl", "solid\nendsolid\n"), "input: a.stl: " + want);
+  EXPECT_EQ(complaint("b.stl", std::string(84, '\0')), "input: b.stl: " + want);
   EXPECT_EQ(
       complaint("a.ply", with(with(with(good_ply, "face 4", "face 0"), "3 0 2 1\n3 0 1 3\n", ""),
                               "3 0 3 2\n3 1 2 3\n", "")),
-      "mesh: a.ply: " + want);
+      "input: a.ply: " + want);
 }
 
 TEST_F(BrokenSurfaces, another_format_under_this_ending) {
-  EXPECT_EQ(complaint("a.obj", binary_stl()),
-            "mesh: a.obj: is not a text file in OBJ format; export it again, or give it the ending "
-            "of its real format");
-  EXPECT_EQ(complaint("b.obj", good_off), "mesh: b.obj: holds no faces; export the surface again");
+  EXPECT_EQ(
+      complaint("a.obj", binary_stl()),
+      "input: a.obj: is not a text file in OBJ format; export it again, or give it the ending "
+      "of its real format");
+  EXPECT_EQ(complaint("b.obj", good_off), "input: b.obj: holds no faces; export the surface again");
   EXPECT_EQ(complaint("a.off", good_obj),
-            "mesh: a.off:1: the file wants to begin with `OFF`; export it again, or give it the "
+            "input: a.off:1: the file wants to begin with `OFF`; export it again, or give it the "
             "ending of its real format");
-  EXPECT_EQ(complaint("a.ply", good_stl),
-            "mesh: a.ply: does not begin with `ply`; export it again, or give it the ending of its "
-            "real format");
+  EXPECT_EQ(
+      complaint("a.ply", good_stl),
+      "input: a.ply: does not begin with `ply`; export it again, or give it the ending of its "
+      "real format");
   EXPECT_EQ(complaint("a.stl", good_obj),
-            "mesh: a.stl:1: the line wants `solid`, got `v`; export the "
+            "input: a.stl:1: the line wants `solid`, got `v`; export the "
             "file again");
 }
 
@@ -113,13 +116,14 @@ TEST_F(BrokenSurfaces, garbage) {
          {noise, std::string(4096, '\0'), std::string(100000, 'x'), "\xff\xfe" + noise,
           "ply\nformat ascii 1.0\n" + noise, "OFF\n" + noise, "solid \n" + noise, "v 1 " + noise}) {
       const std::string got = complaint("g." + ending, content);
-      EXPECT_TRUE(got.starts_with("mesh: g." + ending + ":")) << got;
+      EXPECT_TRUE(got.starts_with("input: g." + ending + ":")) << got;
       EXPECT_LT(got.size(), 400u) << got;
     }
   }
-  EXPECT_EQ(complaint("z.off", std::string(4096, '\0')),
-            "mesh: z.off: is not a text file in OFF format; export it again, or give it the ending "
-            "of its real format");
+  EXPECT_EQ(
+      complaint("z.off", std::string(4096, '\0')),
+      "input: z.off: is not a text file in OFF format; export it again, or give it the ending "
+      "of its real format");
 }
 
 // Wherever a file ends, it is refused; text may lack its last line end, and an OBJ that ends
@@ -134,42 +138,45 @@ TEST_F(BrokenSurfaces, cut_short_anywhere) {
            {"b.stl", binary_stl()}})
     for (std::size_t size = 0; size + 1 < content.size(); ++size) {
       const std::string got = complaint(name, content.substr(0, size));
-      ASSERT_TRUE(got.starts_with("mesh: ")) << name << " of " << size << " bytes: " << got;
+      ASSERT_TRUE(got.starts_with("input: ") || got.starts_with("mesh: "))
+          << name << " of " << size << " bytes: " << got;
       ASSERT_GT(got.size(), 40u) << got;
     }
 }
 
 TEST_F(BrokenSurfaces, says_where_it_is_cut_short) {
   EXPECT_EQ(complaint("a.obj", good_obj.substr(0, good_obj.size() - 3)),
-            "mesh: a.obj:8: a face wants three corners or more, got 2; the file may be cut short: "
+            "input: a.obj:8: a face wants three corners or more, got 2; the file may be cut short: "
             "export it again");
   EXPECT_EQ(complaint("b.obj", "v 0 0 0\nv 1 0"),
-            "mesh: b.obj:2: a vertex wants three coordinates, got 2; the file may be cut short: "
+            "input: b.obj:2: a vertex wants three coordinates, got 2; the file may be cut short: "
             "export it again");
   EXPECT_EQ(complaint("a.off", good_off.substr(0, good_off.size() - 16)),
-            "mesh: a.off:8: the file ends after 2 of 4 faces; it is cut short: export it again");
-  EXPECT_EQ(complaint("b.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n"),
-            "mesh: b.off:4: the file ends after 2 of 4 vertices; it is cut short: export it again");
+            "input: a.off:8: the file ends after 2 of 4 faces; it is cut short: export it again");
+  EXPECT_EQ(
+      complaint("b.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n"),
+      "input: b.off:4: the file ends after 2 of 4 vertices; it is cut short: export it again");
   EXPECT_EQ(complaint("a.ply", good_ply.substr(0, good_ply.size() - 9)),
-            "mesh: a.ply:16: the file ends after 3 of 4 lines of element `face`; it is cut short: "
+            "input: a.ply:16: the file ends after 3 of 4 lines of element `face`; it is cut short: "
             "export it again");
-  EXPECT_EQ(complaint("d.ply", good_ply.substr(0, good_ply.size() - 2)),
-            "mesh: d.ply:17: a face wants three corners or more, got 2; the file may be cut short: "
-            "export it again");
+  EXPECT_EQ(
+      complaint("d.ply", good_ply.substr(0, good_ply.size() - 2)),
+      "input: d.ply:17: a face wants three corners or more, got 2; the file may be cut short: "
+      "export it again");
   EXPECT_EQ(complaint("a.stl", good_stl.substr(0, good_stl.size() - 13)),
-            "mesh: a.stl:29: the file ends before `endsolid`, in or after facet 4; it is cut "
+            "input: a.stl:29: the file ends before `endsolid`, in or after facet 4; it is cut "
             "short: export it again");
   EXPECT_EQ(complaint("b.ply", binary_ply().substr(0, binary_ply().size() - 1)),
-            "mesh: b.ply: the file ends in number 3 of 4 of element `face`; it is cut short: "
+            "input: b.ply: the file ends in number 3 of 4 of element `face`; it is cut short: "
             "export it again");
   EXPECT_EQ(complaint("c.ply", binary_ply().substr(0, 100)),
-            "mesh: c.ply: ends before `end_header`; it is cut short: export it again");
+            "input: c.ply: ends before `end_header`; it is cut short: export it again");
   std::string version = good_ply;
   version.replace(version.find("1.0"), 3, ".");
   EXPECT_EQ(complaint("d.ply", version),
-            "mesh: d.ply: line 2 of its header is not understood; export it again");
+            "input: d.ply: line 2 of its header is not understood; export it again");
   EXPECT_EQ(complaint("b.stl", binary_stl().substr(0, 200)),
-            "mesh: b.stl: is neither an ASCII STL, which begins with `solid`, nor a binary one, "
+            "input: b.stl: is neither an ASCII STL, which begins with `solid`, nor a binary one, "
             "which would have 284 bytes for its 4 facets, not 200; it is cut short or of another "
             "format: export it again");
 }
@@ -180,29 +187,30 @@ TEST_F(BrokenSurfaces, counts_that_lie) {
         complaint("a.stl", binary_stl(count)).find(std::to_string(count) + " facets, not 284"),
         std::string::npos);
   EXPECT_EQ(complaint("a.off", with(good_off, "4 4 6", "4 3 6")),
-            "mesh: a.off:10: the header counts 4 vertices and 3 faces, but another line follows; "
+            "input: a.off:10: the header counts 4 vertices and 3 faces, but another line follows; "
             "mend the counts");
   EXPECT_EQ(complaint("b.off", with(good_off, "4 4 6", "4 5 6")),
-            "mesh: b.off:10: the file ends after 4 of 5 faces; it is cut short: export it again");
-  EXPECT_EQ(complaint("c.off", with(good_off, "4 4 6", "2000000000 4 6")),
-            "mesh: c.off:10: the file ends after 8 of 2000000000 vertices; it is cut short: export "
-            "it again");
+            "input: b.off:10: the file ends after 4 of 5 faces; it is cut short: export it again");
+  EXPECT_EQ(
+      complaint("c.off", with(good_off, "4 4 6", "2000000000 4 6")),
+      "input: c.off:10: the file ends after 8 of 2000000000 vertices; it is cut short: export "
+      "it again");
   EXPECT_EQ(complaint("d.off", with(good_off, "4 4 6", "-4 4 6")),
-            "mesh: d.off:2: the number of vertices is missing or negative; after `OFF` write the "
+            "input: d.off:2: the number of vertices is missing or negative; after `OFF` write the "
             "numbers of vertices, faces and edges");
   EXPECT_EQ(complaint("a.ply", with(good_ply, "face 4", "face 3")),
-            "mesh: a.ply:17: the header counts 3 faces, but another line follows; mend the count");
+            "input: a.ply:17: the header counts 3 faces, but another line follows; mend the count");
   EXPECT_EQ(complaint("b.ply", with(good_ply, "face 4", "face 1000000000")),
-            "mesh: b.ply:17: the file ends after 4 of 1000000000 lines of element `face`; it is "
+            "input: b.ply:17: the file ends after 4 of 1000000000 lines of element `face`; it is "
             "cut short: export it again");
   EXPECT_EQ(
       complaint("c.ply", with(binary_ply(), "face 4", "face 3")),
-      "mesh: c.ply: 13 bytes follow the last of 3 faces; the count is wrong: export it again");
+      "input: c.ply: 13 bytes follow the last of 3 faces; the count is wrong: export it again");
   EXPECT_EQ(complaint("d.ply", with(binary_ply(), "vertex 4", "vertex 900000000")),
-            "mesh: d.ply: the file ends in number 8 of 900000000 of element `vertex`; it is cut "
+            "input: d.ply: the file ends in number 8 of 900000000 of element `vertex`; it is cut "
             "short: export it again");
   EXPECT_EQ(complaint("e.ply", with(good_ply, "vertex 4", "vertex 4e99")),
-            "mesh: e.ply: line 3 of its header wants a count from 0 to 1e9; export it again");
+            "input: e.ply: line 3 of its header wants a count from 0 to 1e9; export it again");
 }
 
 }  // namespace

@@ -380,6 +380,38 @@ TEST(FileMesh, OfAFineSurfaceWithAnEdgeLengthIsCoarserToo) {
   EXPECT_NE(made.warning.find("finer than the mesh wanted"), std::string::npos) << made.warning;
 }
 
+// TetGen puts no nodes into a wall that is thinner than its triangles.
+TEST(FileMesh, OfAThinWallHasTheNodesThatAreWanted) {
+  Surface wall = geometry::ellipsoid_surface(Vec3::Zero(), Vec3::Constant(0.060), 8e-3);
+  const Surface inside = geometry::ellipsoid_surface(Vec3::Zero(), Vec3::Constant(0.056), 8e-3);
+  const auto outer = static_cast<int>(wall.vertices.size());
+  wall.vertices.insert(wall.vertices.end(), inside.vertices.begin(), inside.vertices.end());
+  for (const auto& [a, b, c] : inside.triangles)
+    wall.triangles.push_back({outer + a, outer + c, outer + b});
+  ASSERT_LT(wall.vertices.size(), 750u);
+  const FileMesh made = tetgen_file(wall, {}, {.nodes = 1500}, time_given);
+  EXPECT_NEAR(static_cast<double>(made.mesh.nodes.size()) / 1500.0, 1.0, 0.03);
+  EXPECT_NE(made.warning.find("edges of the surface were halved"), std::string::npos)
+      << made.warning;
+  EXPECT_NEAR(geometry::volume(made.mesh) / volume(wall), 1.0, 1e-9);  // rounding
+}
+
+TEST(HalvedEdges, LeaveTheSurfaceWhereItIs) {
+  const Surface box = geometry::box_surface(Vec3(0.03, 0.02, 0.01), {1, 1, 1});
+  const Surface made = geometry::with_halved_edges(box, 100);
+  EXPECT_EQ(made.vertices.size(), 100u);
+  EXPECT_NO_THROW(check_closed(made, "box"));
+  EXPECT_NEAR(volume(made), 6e-6, 1e-18);  // rounding
+  EXPECT_NEAR(geometry::area(made), 2.2e-3, 1e-15);
+  const double even = spacing_of(made);
+  for (const auto& triangle : made.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT(
+          (made.vertices[as_index(triangle[i])] - made.vertices[as_index(triangle[(i + 1) % 3])])
+              .norm(),
+          2.5 * even);
+}
+
 TEST(FileMesh, KeepsAGoodSurface) {
   const Surface good = sampled(geometry::Cuboid{}, 8e-3);
   const FileMesh made = tetgen_file(good, {}, {.nodes = 728}, time_given);
