@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "accuracy/bodies.h"
-#include "auto_scenes.h"
 #include "base/text.h"
 #include "blocks.h"
-#include "chart/truth.h"
 #include "plot/gnuplot_text.h"
 #include "run/family.h"
 #include "run_text.h"
@@ -187,74 +185,11 @@ void uniform_table() {
   }
 }
 
-// The greatest force of a press, or the greatest strain of a uniform test.
-double measure(const record::CaseRecord& record) {
-  double most = 0.0;
-  for (const auto& row : record.contact) most = std::max(most, row.force);
-  for (const auto& row : record.strain) most = std::max(most, row.strain);
-  return record.outcome == record::Outcome::completed ? most : std::nan("");
-}
-
-struct Reference {
-  double value = 0.0;
-  double error = 0.0;  // relative
-  std::string kind;
-};
-
-// The reference of `palpate chart`.
-Reference reference(const test::AutoScene& scene, const scene::Scene& chosen) {
-  const chart::Asked asked = chart::read_for_chart("scene.toml", scene.text, {});
-  const chart::Truth truth = chart::find_truth(asked, 0);
-  double most = 0.0;
-  for (const chart::Moment& moment : truth.moments) most = std::max(most, moment.value);
-  return {most, chart::own_error(chosen.scenario, truth.moments).greatest, truth.kind};
-}
-
-void auto_table() {
-  std::printf(
-      "\n## Models that `auto` picks\n\nTwenty-one scenes "
-      "([tests/auto_scenes.h](../tests/auto_scenes.h)) with a tolerance of 5 %%. Errors against "
-      "the reference are\nin percent of the largest force, or of the largest strain of a uniform "
-      "test. Predicted errors are in brackets.\nThe reference is that of `palpate chart`.\n\n"
-      "| scene | reference | its error |");
-  const auto& model_traits = scenario::model_table;
-  for (const scenario::ModelTraits& traits : model_traits) std::printf(" %s |", traits.word);
-  std::printf(" taken |\n|---|---|---|");
-  for (std::size_t i = 0; i < model_traits.size(); ++i) std::printf("---|");
-  std::printf("---|\n");
-  for (const test::AutoScene& one : test::auto_scenes()) {
-    const auto family = scenario::parse(one.text, "scene.toml", {});
-    const auto chosen = run::build_scene(family.cases.front(), family);
-    const Reference truth = reference(one, chosen);
-    std::printf("| %s | %s | %s |", one.name, truth.kind.c_str(), percent(truth.error).c_str());
-    for (const scenario::ModelTraits& each : model_traits) {
-      const scene::Forecast* traits = chosen.choice.forecast(each.of);
-      std::optional<double> error;
-      if (traits != nullptr) {
-        try {
-          auto as_taken = family;
-          scenario::Scenario& asked = as_taken.cases.front().scenario;
-          asked = scenario::answered(as_taken.cases.front(), chosen.scenario);
-          asked.solver.model = each.of;
-          error = measure(test::run_scene(run::build_scene(as_taken.cases.front(), as_taken))) /
-                      truth.value -
-                  1.0;
-        } catch (const std::exception&) {
-        }
-      }
-      std::printf(" %s%s |", percent(error).c_str(),
-                  traits != nullptr ? (" (" + percent(traits->error) + ")").c_str() : "");
-    }
-    std::printf(" %s |\n", scenario::traits(chosen.scenario.solver.model).word);
-    std::fflush(stdout);
-  }
-}
-
 }  // namespace
 }  // namespace palpate
 
 // The first argument names the gnuplot script of the figure; a second one the only table to write:
-// `blocks`, `bodies`, `uniform` or `auto`; `figure` makes the script alone.
+// `blocks`, `bodies` or `uniform`; `figure` makes the script alone.
 int main(int count, char** arguments) {
   const std::string only = count > 2 ? arguments[2] : "";
   const auto wanted = [&](const char* table) { return only.empty() || only == table; };
@@ -269,5 +204,4 @@ int main(int count, char** arguments) {
   if (count > 1 && wanted("figure")) palpate::figure(arguments[1]);
   if (wanted("bodies")) palpate::bodies_table();
   if (wanted("uniform")) palpate::uniform_table();
-  if (wanted("auto")) palpate::auto_table();
 }

@@ -235,7 +235,7 @@ TEST_F(Design, Refusals) {
                     "mm\", \"6 mm\", \"7 mm\", \"8 mm\", \"9 mm\"]\n"
                     "[solver]\nmodel = \"hertz\"\n[tissue]\nshape = { kind = \"half_space\" }\n")
                 .substr(0, 60),
-            "`to` of 2 mm is deeper than the finger's radius of 1 mm, whe");
+            "`to` of 2 mm is deeper than the finger's radius of 1 mm, and");
   EXPECT_EQ(refusal("[[step]]\nkind = \"indent\"\nto = \"0.5 mm\"\n[sweep]\n\"finger.radius\" = "
                     "[\"1 mm\", \"2 mm\", \"3 mm\", \"4 mm\", \"5 mm\", \"6 mm\", \"7 mm\", \"8 "
                     "mm\", \"9 mm\"]\n"),
