@@ -75,9 +75,9 @@ void read_named_file(const NamedFile& named, const Node& document, Sources& sour
   }
 }
 
-bool gives_viscosity(const Node& document) {
-  const Member* tissue = document.find("tissue");
-  return tissue != nullptr && tissue->value.find("viscosity") != nullptr;
+bool gives_viscosity(const Node& document, const char* table) {
+  const Member* found = document.find(table);
+  return found != nullptr && found->value.find("viscosity") != nullptr;
 }
 
 // Makes the tissue elastic where its material has no time for the default viscous law and nothing
@@ -94,7 +94,8 @@ void require_tissue(Scenario& scenario, const material::Tissue& material, const 
       std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& step) {
         return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
       });
-  const bool asked = gives_viscosity(document) || viscous_test || viscous_contact(scenario);
+  const bool asked =
+      gives_viscosity(document, "tissue") || viscous_test || viscous_contact(scenario);
   if (!asked && !tissue.retardation_time && !material.retardation_time)
     tissue.viscosity = tissue::Viscosity::none;
   // If viscosity is not computed, viscous properties only serve estimates and may be missing.
@@ -104,7 +105,9 @@ void require_tissue(Scenario& scenario, const material::Tissue& material, const 
     if (tissue.viscosity == law && !given && !from)
       throw InputError(place_of(document, "tissue.material"),
                        "`" + tissue.material + "` has no `" + key + "`; give `tissue." + key +
-                           "`, or write `tissue.viscosity = \"none\"`");
+                           "`, or write `" +
+                           (gives_viscosity(document, "contact") ? "contact" : "tissue") +
+                           ".viscosity = \"none\"`");
   };
   using tissue::Viscosity;
   require(Viscosity::kelvin_voigt, tissue.retardation_time, material.retardation_time,
@@ -141,8 +144,9 @@ void complete_contact(Scenario& scenario, const Node& document) {
   const bool hertz_knows = scenario.contact.coupling == contact::Coupling::consistent;
   const bool flows = scenario.tissue.viscosity != tissue::Viscosity::none &&
                      scenario.tissue.viscosity != tissue::Viscosity::nodal_drag;
-  scenario.contact.viscosity =
-      gives_viscosity(document) && hertz_knows && flows ? Viscosity::tissue : Viscosity::none;
+  scenario.contact.viscosity = gives_viscosity(document, "tissue") && hertz_knows && flows
+                                   ? Viscosity::tissue
+                                   : Viscosity::none;
 }
 
 }  // namespace

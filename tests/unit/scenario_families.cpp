@@ -251,7 +251,9 @@ TEST_F(Files, AMaterialWithoutViscosityIsElasticUnlessViscosityIsAskedFor) {
   const std::string lacks =
       "`my.toml#gel` has no `retardation_time`; give "
       "`tissue.retardation_time`, or write `tissue.viscosity = \"none\"`";
-  EXPECT_EQ(said(gel + "[contact]\nviscosity = \"tissue\"\n"), "press.toml:5:12: " + lacks);
+  EXPECT_EQ(said(gel + "[contact]\nviscosity = \"tissue\"\n"),
+            "press.toml:5:12: `my.toml#gel` has no `retardation_time`; give "
+            "`tissue.retardation_time`, or write `contact.viscosity = \"none\"`");
   try {
     (void)parse("schema = 1\n" + gel + "[[step]]\nkind = \"creep\"\n", scenario(), {});
     ADD_FAILURE() << "creep without a law of time";
