@@ -73,8 +73,9 @@ struct Answer {
   std::string model;  // which model, and why: "Chosen: layer, ... hertz would be 14 % low: ..."
   std::string error;  // the largest force (or strain) if the case has run, with its stated error
   std::string neglected;  // which effects are neglected, what each would change, and its remedy
-  std::string verdict;    // of a live run: whether measured force and model agree
-  bool complete = true;   // whether nothing that needs a warning is neglected
+  std::vector<std::string> also;  // those after the largest, by name and size: "large strains, 2 %"
+  std::string verdict;            // of a live run: whether measured force and model agree
+  bool complete = true;           // whether nothing that needs a warning is neglected
   std::optional<double> stated_error;  // relative, of the force or strain; empty if not estimated
   // What `error` says beside the error; both are empty where none is estimated.
   std::string tolerance;  // "tolerance 5 %, and no model comes nearer"

@@ -344,24 +344,10 @@ std::string first_statement(const std::string& text) {
 // `viscosity, which would add 36 % to the force while pressing; add ... (also the size of the body,
 // 15 %; large strains, 1.8 %)`.
 std::string neglected(const record::Answer& answer) {
-  const std::string_view other = " Also neglected: ";
-  const std::size_t end = std::min(answer.neglected.find(other), answer.neglected.size());
-  std::string text = answer.neglected.substr(0, end);
+  std::string text = answer.neglected.substr(0, answer.neglected.find(" Also neglected: "));
   if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
   if (text.ends_with('.')) text.pop_back();
-  std::vector<std::string> others;
-  for (std::size_t at = end; at < answer.neglected.size();) {
-    at += other.size();
-    const std::size_t next = std::min(answer.neglected.find(other, at), answer.neglected.size());
-    const std::string one = answer.neglected.substr(at, next - at);
-    others.push_back(one.substr(0, one.find(", ")));
-    if (const std::size_t percent = one.find(" %"); percent != std::string::npos) {
-      const std::size_t number = one.rfind(' ', percent - 1) + 1;
-      others.back() += ", " + one.substr(number, percent + 2 - number);
-    }
-    at = next;
-  }
-  return others.empty() ? text : text + " (also " + joined(others, "; ") + ")";
+  return answer.also.empty() ? text : text + " (also " + joined(answer.also, "; ") + ")";
 }
 
 // `1.17 N`

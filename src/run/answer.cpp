@@ -103,15 +103,19 @@ class Words {
         answer.uncounted += (answer.uncounted.empty() ? "" : " and ") + one.beside;
   }
 
-  [[nodiscard]] static std::string neglected(const std::vector<Neglected>& all, double tolerance) {
+  void neglect(const std::vector<Neglected>& all, record::Answer& answer) const {
+    answer.complete = all.empty();
     if (all.empty())
-      return "Neglected: nothing that would add more than " + percent_text(0.2 * tolerance) +
-             " to this error.";
-    std::string text;
-    for (const Neglected& one : all)
-      text += (text.empty() ? "Neglected: " : " Also neglected: ") + one.what + ", " + one.when +
-              (one.remedy.empty() ? "" : "; " + one.remedy) + ".";
-    return text;
+      answer.neglected = "Neglected: nothing that would add more than " +
+                         percent_text(0.2 * tolerance()) + " to this error.";
+    for (const Neglected& one : all) {
+      const bool first = answer.neglected.empty();
+      answer.neglected += (first ? "Neglected: " : " Also neglected: ") + one.what + ", " +
+                          one.when + (one.remedy.empty() ? "" : "; " + one.remedy) + ".";
+      if (!first)
+        answer.also.push_back(one.what +
+                              (one.change ? ", " + percent_text(std::abs(*one.change)) : ""));
+    }
   }
 
   // What the model leaves out, the largest first.
@@ -407,8 +411,7 @@ Expected expect(const scene::Scene& scene) {
   const Words words(scene, expected.mesh_error);
   record::Answer& answer = expected.answer;
   answer.model = words.model();
-  answer.neglected = Words::neglected(expected.neglected, scene.scenario.solver.tolerance);
-  answer.complete = expected.neglected.empty();
+  words.neglect(expected.neglected, answer);
   words.state(error, expected.neglected, answer);
   answer.error = quantity(scene.scenario) + " has " + Words::error(answer) + ".";
   return expected;
@@ -421,8 +424,7 @@ record::Answer answer(const scene::Scene& scene, const record::CaseRecord& recor
   const std::vector<Neglected> effects = neglected(scene);
   record::Answer answer;
   answer.model = words.model();
-  answer.neglected = Words::neglected(effects, scene.scenario.solver.tolerance);
-  answer.complete = effects.empty();
+  words.neglect(effects, answer);
   answer.error =
       peak ? "Peak " + peak->of + ": " + rounded_text(peak->value, 3) + peak->unit : "No result";
   if (record.outcome == record::Outcome::completed) {

@@ -244,6 +244,18 @@ TEST(RunResults, the_first_lines_say_slides_regions_platens_and_swept_keys) {
   EXPECT_TRUE(has(squeezed, "; upper platen bonded; underside fixed (bonded base).")) << squeezed;
 }
 
+TEST(RunResults, the_first_lines_name_the_other_neglected_effects_with_their_size) {
+  const TemporaryFolder folder;
+  write_file(folder / "thin.toml",
+             "[solver]\nmodel = \"hertz\"\n[output]\nfigures = false\n[[step]]\nkind = "
+             "\"indent\"\nto = \"2 mm\"\nrate = \"5 mm/s\"\n");
+  ASSERT_EQ(palpate(folder.path(), {"run", "thin.toml"}).code, 0);
+  const std::string page = read_page(folder / "out/thin/report.html");
+  const std::size_t also = page.find(" (also the size of the body, 15 %");
+  EXPECT_NE(also, std::string::npos) << page;
+  EXPECT_LT(also, page.find("Derived quantities"));
+}
+
 // As a person would: in its folder, line by line.
 TEST_F(OfAPress, is_repeated_by_the_commands_of_its_page) {
   const std::string commands = "cp scenario.toml press.toml\npalpate run press.toml";
