@@ -20,15 +20,13 @@ namespace {
 
 constexpr double aside = 1e-3;  // for slopes
 
-// The parabola through the three points nearest to x in logarithms. Below the first point its slope
-// there goes over to `power`, that of the smallest contacts; beyond the last one it goes on
-// straight.
+// In logarithms a parabola through three points, which goes over to the next one between the points
+// that both pass through, so that the slope has no jumps. Below the first point its slope there goes
+// over to `power`, that of the smallest contacts; beyond the last one it goes on straight.
 double between(const Pairs& points, double x, double power) {
   if (!(x > 0.0)) return 0.0;
-  const auto parabola = [&](double at) {
-    std::size_t first = 0;
-    while (first + 3 < points.size() && at > points[first + 1].first) ++first;
-    const std::size_t count = std::min<std::size_t>(3, points.size() - first);
+  const std::size_t count = std::min<std::size_t>(3, points.size());
+  const auto through = [&](std::size_t first, double at) {
     double sum = 0.0;
     for (std::size_t i = first; i < first + count; ++i) {
       double weight = 1.0;
@@ -38,6 +36,17 @@ double between(const Pairs& points, double x, double power) {
       sum += weight * std::log(points[i].second);
     }
     return sum;
+  };
+  const auto parabola = [&](double at) {
+    std::size_t i = 0;  // of the point below
+    while (i + 2 < points.size() && at > points[i + 1].first) ++i;
+    const std::size_t last = points.size() - count;
+    const std::size_t before = std::min(i > 0 ? i - 1 : 0, last), after = std::min(i, last);
+    const double low = through(before, at);
+    if (before == after) return low;
+    const double part =
+        std::log(at / points[i].first) / std::log(points[i + 1].first / points[i].first);
+    return low + part * (through(after, at) - low);
   };
   const auto& [begin, value] = points.front();
   const auto& [end, last] = points.back();
