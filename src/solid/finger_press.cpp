@@ -21,8 +21,8 @@ namespace {
 constexpr double aside = 1e-3;  // for slopes
 
 // In logarithms a parabola through three points, which goes over to the next one between the points
-// that both pass through, so that the slope has no jumps. Below the first point its slope there goes
-// over to `power`, that of the smallest contacts; beyond the last one it goes on straight.
+// that both pass through, so that the slope has no jumps. Below the first point its slope there
+// goes over to `power`, that of the smallest contacts; beyond the last one it goes on straight.
 double between(const Pairs& points, double x, double power) {
   if (!(x > 0.0)) return 0.0;
   const std::size_t count = std::min<std::size_t>(3, points.size());

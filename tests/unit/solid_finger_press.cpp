@@ -290,9 +290,9 @@ TEST(FingerPress, TheForceOfAWallDoesNotDependOnTheStart) {
   }
 }
 
-// Parabolas that met at the points without going over to each other had changed the slope of a bowl's
-// force by 6 % at a quarter of its displacement. Curvatures that this layer does not have give its
-// smallest contacts another power than those that are found.
+// Parabolas that met at the points without going over to each other had changed the slope of a
+// bowl's force by 6 % at a quarter of its displacement. Curvatures that this layer does not have
+// give its smallest contacts another power than those that are found.
 TEST(FingerPress, TheSlopeOfTheForceHasNoJumps) {
   FingerOrder order = thin_layer();
   order.smooth = true;
