@@ -73,43 +73,37 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
       scene.scenario.regions.begin(), scene.scenario.regions.end(),
       [](const auto& region) { return std::holds_alternative<scenario::Inclusion>(region.part); });
   if (count == 1 && included_) asked_.front() = beside_inclusion;
-  per_radius_ = asked_;
   make();
 }
 
 // All meshes have one kind of surface and one size of inclusions, or no force could be extrapolated
 // from theirs.
 void SolidPress::make() {
-  for (;;) {
-    width_ = scene_->finger.centres.size() > 1
-                 ? 1.0
-                 : scene::width_on_edge(*body().outer_surface, body().first_touch,
-                                        scene_->finger.sphere_radius, deepest_);
-    try {
-      presses_.clear();
-      for (std::size_t i = 0; i < per_radius_.size(); ++i) presses_.push_back(made(i));
-      return;
-    } catch (const MeshError&) {
-      if (!simpler()) throw;
-    }
-  }
-}
-
-std::unique_ptr<solid::FingerPress> SolidPress::made(std::size_t mesh) {
   // Again with elements a little smaller where the surface is a file's, as TetGen may fail by bad
   // luck.
   constexpr double finer = 1.07;
   const int most_tries = scene_->solid->surface ? 3 : 1;
-  double& number = per_radius_[mesh];
-  number = asked_[mesh];
-  for (int tries = 1;; ++tries) {
-    try {
-      return std::make_unique<solid::FingerPress>(order(number));
-    } catch (const MeshError&) {
-      if (tries == most_tries) throw;
-      number *= finer;
+  do {
+    width_ = scene_->finger.centres.size() > 1
+                 ? 1.0
+                 : scene::width_on_edge(*body().outer_surface, body().first_touch,
+                                        scene_->finger.sphere_radius, deepest_);
+    per_radius_ = asked_;
+    presses_.clear();
+    int tries = 1;
+    while (presses_.size() < asked_.size()) {
+      double& number = per_radius_[presses_.size()];
+      try {
+        presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
+        tries = 1;
+      } catch (const MeshError&) {
+        number *= finer;
+        if (tries++ < most_tries) continue;
+        if (!simpler()) throw;
+        break;
+      }
     }
-  }
+  } while (presses_.size() < asked_.size());
 }
 
 // Inclusions that touch a border cannot be meshed. The smooth surface through the vertices of a
