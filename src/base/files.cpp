@@ -15,7 +15,6 @@
 #include <cstring>
 #include <filesystem>
 #include <span>
-#include <utility>
 
 #include "base/error.h"
 #include "base/index.h"

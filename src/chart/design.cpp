@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "base/fields.h"
@@ -11,7 +10,6 @@
 #include "base/text.h"
 #include "run/choose.h"
 #include "run/refined_mesh.h"
-#include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"

@@ -2,7 +2,6 @@
 #include "chart/reference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/doing.h"

@@ -3,15 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <string_view>
 #include <thread>
 #include <tuple>
 
 #include "base/error.h"
 #include "base/text.h"
-#include "commands/command.h"
 #include "device/link.h"
 #include "fit/regression.h"
 #include "report/export.h"

@@ -1,7 +1,6 @@
 // `palpate convert`: meshes a surface or scenario, prints the quality of a mesh, and writes it;
 // writes results in the formats of other tools.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>

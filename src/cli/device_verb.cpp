@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <variant>
 #include <vector>
 
 #include "base/error.h"

@@ -10,13 +10,9 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "cli/arguments.h"
-#include "fit/contact_model.h"
 #include "fit/parts.h"
 #include "fit/prony.h"
 #include "fit/residuals.h"
-#include "fit/uniaxial.h"
-#include "measured/measured.h"
 
 namespace palpate::cli {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/stop_scope.h"
-#include "base/text.h"
 #include "base/units.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"

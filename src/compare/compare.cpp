@@ -6,15 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <map>
-#include <optional>
 #include <set>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "base/document.h"
-#include "base/error.h"
 #include "base/fields.h"
 #include "base/index.h"
 #include "base/text.h"

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/text.h"
 #include "base/written.h"
 
 namespace palpate::compare {

@@ -22,7 +22,6 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/index.h"
 #include "device/clock.h"
 #include "device/tap.h"
 #include "device/websocket.h"

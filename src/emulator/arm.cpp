@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "emulator/files.h"
-
 namespace emulator {
 namespace {
 

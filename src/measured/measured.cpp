@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/index.h"
 #include "base/text.h"
 #include "measured/columns.h"
 #include "measured/table.h"

@@ -1,7 +1,6 @@
 // The surface displacement beyond a half-space's at any place and for any contact radius.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>

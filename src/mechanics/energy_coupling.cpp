@@ -3,16 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <list>
-#include <map>
 #include <numbers>
 
 #include "base/error.h"
 #include "scenario/model_traits.h"
-#include "tissue/coupled.h"
 
 namespace palpate::mechanics {
 

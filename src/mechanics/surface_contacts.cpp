@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "contact/patch.h"
 
 namespace palpate::mechanics {
 namespace {

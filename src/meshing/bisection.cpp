@@ -2,16 +2,12 @@
 #include "meshing/bisection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
 #include <tuple>
 #include <utility>
-#include <vector>
-
-#include "geometry/smooth_surface.h"
 
 namespace palpate::meshing {
 namespace {

@@ -27,12 +27,10 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
-#include <vector>
 
 namespace palpate::meshing::cgal_library {
 namespace {

@@ -11,14 +11,12 @@
 #include <map>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
 #include "meshing/cells.h"
-#include "meshing/table_lines.h"
 
 namespace palpate::meshing {
 namespace {

@@ -7,12 +7,9 @@
 #include <cstdlib>
 #include <exception>
 #include <limits>
-#include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
-#include "base/error.h"
 #include "base/numerics.h"
 #include "base/stopwatch.h"
 #include "base/text.h"

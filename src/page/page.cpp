@@ -2,7 +2,6 @@
 #include "page/page.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <sstream>

@@ -5,18 +5,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
 #include "base/units.h"
-#include "plot/figure.h"
 #include "plot/gnuplot_text.h"
-#include "scenario/family.h"
 
 namespace palpate::report {
 namespace {

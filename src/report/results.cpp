@@ -15,7 +15,6 @@
 #include "record/table.h"
 #include "report/exr.h"
 #include "report/family_figures.h"
-#include "report/manifest.h"
 #include "report/map_picture.h"
 #include "report/run_page.h"
 #include "report/scene_picture.h"

@@ -2,27 +2,19 @@
 #include "report/run_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
 #include "base/units.h"
-#include "base/written.h"
-#include "fit/case_fits.h"
 #include "page/html.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"
-#include "record/record.h"
 #include "report/answer_lines.h"
 #include "report/finding_words.h"
 #include "report/map_picture.h"
 #include "report/scene_picture.h"
-#include "scenario/family.h"
 #include "scenario/model_traits.h"
 #include "scenario/resolved.h"
 #include "scenario/tested.h"

@@ -8,14 +8,11 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
 #include "base/units.h"
 #include "base/written.h"
-#include "page/html.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"
 

@@ -14,7 +14,6 @@
 #include "scene/places.h"
 #include "scene/proportions.h"
 #include "scene/refining_press.h"
-#include "scene/scene.h"
 #include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
 #include "solid/finger_press.h"

@@ -2,7 +2,6 @@
 #include "run/family.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"

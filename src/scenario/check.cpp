@@ -1,7 +1,6 @@
 // Checks that involve several keys at once.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 

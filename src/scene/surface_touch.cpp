@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "base/units.h"
 #include "contact/hertz.h"
 #include "geometry/box_tree.h"
 #include "geometry/shapes.h"

@@ -2,7 +2,6 @@
 #include "solid/surface_net.h"
 
 #include <algorithm>
-#include <cmath>
 #include <queue>
 #include <set>
 

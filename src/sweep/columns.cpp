@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "base/error.h"
@@ -16,7 +14,6 @@
 #include "fit/regression.h"
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
-#include "record/table.h"
 
 namespace palpate::sweep {
 namespace {

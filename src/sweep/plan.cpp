@@ -17,14 +17,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "base/document.h"
-#include "base/error.h"
-#include "base/files.h"
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"

@@ -3,16 +3,13 @@
 #include "sweep/response.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 
-#include "base/index.h"
 #include "base/text.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
-#include "sweep/columns.h"
 
 namespace palpate::sweep {
 namespace {

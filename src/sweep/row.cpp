@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "fit/case_fits.h"
 #include "record/csv.h"
-#include "record/table.h"
 
 namespace palpate::sweep {
 namespace {

@@ -14,7 +14,6 @@
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "run/family.h"
 #include "run/refined_mesh.h"
 #include "run/share_out.h"
 #include "scene/estimates.h"
