@@ -222,7 +222,7 @@ void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   if (count == 0) return;
   from.resize(3 * count + 1);
   to.resize(4 * count);
-  std::copy(x.begin(), x.end(), from.begin());
+  std::ranges::copy(x, from.begin());
   multiply_one(BlockProduct(*this), from.data(), to.data());
   collect(to.data(), y.data(), count);
 }

@@ -40,7 +40,7 @@ std::vector<std::string> reports_below(const fs::path& folder) {
     else if (at->path().filename() == page::file_name)
       found.push_back(fs::relative(at->path(), folder).generic_string());
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -50,7 +50,7 @@ class Weighted {
   bool curve(std::span<const double> u, std::span<double> values) {
     ++evaluations_;
     return problem_->curve(u, values) &&
-           std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+           std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
   }
 
   // Beyond the box y(u) = 2 y(bound) - y(mirrored), so that a central difference at a bound equals
@@ -113,8 +113,7 @@ BoxMinimum evaluate_in_box(const BoxProblem& problem, std::span<const double> u,
     const double residual = values[i] - curve.measured()[i];
     at.squares += residual * residual;
   }
-  at.found = std::all_of(at.jacobian.begin(), at.jacobian.end(),
-                         [](double slope) { return std::isfinite(slope); });
+  at.found = std::ranges::all_of(at.jacobian, [](double slope) { return std::isfinite(slope); });
   return at;
 }
 
@@ -189,9 +188,7 @@ SearchResult search_from_several(const BoxProblem& problem, int searches) {
     result.evaluations += at.evaluations;
     if (at.found) starts.push_back({u, at.squares});
   }
-  std::stable_sort(starts.begin(), starts.end(), [](const Start& one, const Start& other) {
-    return one.squares < other.squares;
-  });
+  std::ranges::stable_sort(starts, {}, &Start::squares);
   for (std::size_t k = 0; k < std::min(as_index(searches), starts.size()); ++k) {
     BoxMinimum minimum = minimise_in_box(problem, starts[k].u, {});
     result.evaluations += minimum.evaluations;
@@ -298,8 +295,8 @@ class Side {
 
 void finish(Profile& profile, const BoxMinimum& best, std::size_t i) {
   profile.points.push_back({best.u[i], best.squares, best.u});
-  std::stable_sort(profile.points.begin(), profile.points.end(),
-                   [](const auto& one, const auto& other) { return one.u < other.u; });
+  std::ranges::stable_sort(profile.points,
+                           [](const auto& one, const auto& other) { return one.u < other.u; });
 }
 
 }  // namespace
@@ -459,8 +456,8 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
     }
   }
 
-  const bool powers = std::all_of(found.of.begin(), found.of.end(),
-                                  [&](std::size_t i) { return unknowns[i].low > 0.0; });
+  const bool powers =
+      std::ranges::all_of(found.of, [&](std::size_t i) { return unknowns[i].low > 0.0; });
   const auto slope = [&](std::size_t i) {
     return powers ? log_slope(unknowns[i], u[i]) : shown_slope(unknowns[i], u[i]);
   };

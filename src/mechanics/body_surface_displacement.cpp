@@ -259,8 +259,8 @@ BodySurfaceDisplacement::Value BodySurfaceDisplacement::at(const contact::Patch&
       for (std::size_t k = 0; k < radii; ++k) {
         const double surface_displacement = place->surface_displacement[k] / modulus_;
         value.surface_displacement += weight * over_radius.value[k] * surface_displacement;
-        value.slope += weight * over_radius.slope[k] * over_radius.fading / largest_ *
-                       surface_displacement;
+        value.slope +=
+            weight * over_radius.slope[k] * over_radius.fading / largest_ * surface_displacement;
         value.error += weight * over_radius.product[k] * place->error[k] / modulus_;
         value.doubt += weight * over_radius.product[k] * place->doubt[k] / modulus_;
       }
@@ -325,7 +325,7 @@ void BodySurfaceDisplacement::make_ready(double reach) {
   spread(patch);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     patch.at.triangle = static_cast<int>(t);
-    const bool near = std::any_of(triangles[t].begin(), triangles[t].end(), [&](int vertex) {
+    const bool near = std::ranges::any_of(triangles[t], [&](int vertex) {
       return (surface_->surface().vertices[as_index(vertex)] - middle).norm() <= reach;
     });
     for (std::size_t k = 0; near && k < 3; ++k) (void)at_vertex(patch, k);

@@ -260,11 +260,10 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
   if (const auto snap = presses_.back()->snap())
-    record.warnings.push_back("the force falls from a displacement of " +
-                              rounded_text(unit::mm.from_si(snap->first), 2) + " mm to " +
-                              rounded_text(unit::mm.from_si(snap->second), 2) +
-                              " mm: a wall snaps through there, and a finger that is pressed by a "
-                              "force would jump");
+    record.warnings.push_back(
+        "the force falls from a displacement of " + rounded_text(unit::mm.from_si(snap->first), 2) +
+        " mm to " + rounded_text(unit::mm.from_si(snap->second), 2) +
+        " mm: a wall snaps through there, and a finger that is pressed by a force would jump");
   if (inclusion_size_ < 1.0)
     record.warnings.push_back(
         "an inclusion that touches a border is meshed with a radius that is " +
@@ -272,8 +271,8 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   if (flat_)
     record.warnings.push_back(
         "the smooth surface through the vertices of the file cannot be meshed, so that its "
-        "triangles "
-        "are taken as they are; a finer surface has less of a difference between the two");
+        "triangles are taken as they are; a finer surface has less of a difference between the "
+        "two");
 }
 
 geometry::TetMesh SolidPress::corners() const {

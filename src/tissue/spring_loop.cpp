@@ -167,7 +167,7 @@ SpringLoop::SpringLoop(const Network& network, Kinematics kinematics) {
     ends_[2 * s] = a;
     ends_[2 * s + 1] = b;
     const Vec3 rest = network.rest[as_index(b)] - network.rest[as_index(a)];
-    std::copy(rest.begin(), rest.end(), &span_[3 * s]);
+    std::ranges::copy(rest, &span_[3 * s]);
     rest_length_[s] = network.rest_length[s];
     stiffness_[s] = network.stiffness[s];
   }
@@ -213,7 +213,7 @@ void SpringLoop::rates(const Vector& displacement, const Vector& velocity, std::
 
 void SpringLoop::pull(const Vector& displacement, std::span<const double> tension, Vector& force) {
   place(displacement);
-  std::copy(tension.begin(), tension.end(), values_.begin());
+  std::ranges::copy(tension, values_.begin());
   pass_pull(springs_, nodes_.data(), values_.data());
   collect(force);
 }
