@@ -19,7 +19,6 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Numbers that are computed at once.
 using Two = double __attribute__((vector_size(16)));
-using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
 // Eight rows by four columns: the sums over k < depth of eight numbers a_k times four numbers b_k,

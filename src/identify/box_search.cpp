@@ -341,8 +341,6 @@ dense::Svd svd_of(std::span<const double> jacobian, std::size_t unknowns) {
   return dense::svd(slopes);
 }
 
-bool has(const std::string& key, const char* ending) { return key.ends_with(ending); }
-
 // d ln p / du, and dp / du with p in the unknown's unit.
 double log_slope(const Unknown& unknown, double u) { return unknown.slope(u) / unknown.value(u); }
 double shown_slope(const Unknown& unknown, double u) { return unknown.shown(unknown.slope(u)); }
@@ -406,8 +404,7 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
   const std::size_t m = found.of.size();
   if (m < 2 || errors.loose.size() + 1 != m) return std::nullopt;
 
-  // The direction within the inseparable unknowns that is orthogonal to all loose
-  // directions.
+  // The direction within the inseparable unknowns that is orthogonal to all loose directions.
   Eigen::MatrixXd loose(static_cast<Eigen::Index>(m - 1), static_cast<Eigen::Index>(m));
   for (std::size_t k = 0; k + 1 < m; ++k)
     for (std::size_t i = 0; i < m; ++i)
@@ -438,17 +435,17 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
   // E / (1 - nu^2): Hertz's law depends on E and nu through this modulus only.
   const std::size_t a = found.of[0];
   const std::size_t b = found.of[1];
-  const bool elastic =
-      m == 2 && (has(unknowns[a].key, ".young_modulus") || has(unknowns[b].key, ".young_modulus"));
+  const bool elastic = m == 2 && (unknowns[a].key.ends_with(".young_modulus") ||
+                                  unknowns[b].key.ends_with(".young_modulus"));
   if (elastic) {
-    const std::size_t e = has(unknowns[a].key, ".young_modulus") ? a : b;
+    const std::size_t e = unknowns[a].key.ends_with(".young_modulus") ? a : b;
     const std::size_t r = e == a ? b : a;
     const double nu = unknowns[r].value(u[r]);
     gradient[e] = log_slope(unknowns[e], u[e]);
     gradient[r] = 2.0 * nu / (1.0 - nu * nu) * unknowns[r].slope(u[r]);
     const double along_e = gradient[e] * errors.loose[0][e];
     const double along_r = gradient[r] * errors.loose[0][r];
-    if (has(unknowns[r].key, ".poisson_ratio") &&
+    if (unknowns[r].key.ends_with(".poisson_ratio") &&
         std::abs(along_e + along_r) <= 0.05 * std::abs(along_e)) {
       found.text = unknowns[e].name() + " / (1 - " + unknowns[r].name() + "^2)";
       found.unit = unknowns[e].unit_text();
