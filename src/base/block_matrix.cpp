@@ -36,30 +36,6 @@ struct BlockProduct {
 
 namespace {
 
-using Four = double __attribute__((vector_size(32)));
-
-PALPATE_ALWAYS Four load(const double* from) {
-  Four values;
-  __builtin_memcpy(&values, from, sizeof values);
-  return values;
-}
-PALPATE_ALWAYS void store(double* to, const Four& values) {
-  __builtin_memcpy(to, &values, sizeof values);
-}
-PALPATE_ALWAYS Four all(double value) { return Four{value, value, value, value}; }
-
-// For each argument the sum of its first three numbers; the fourth is 0.
-PALPATE_ALWAYS Four sums(const Four& a, const Four& b, const Four& c) {
-  const Four zero{};
-  const Four xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Four y_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Four xz_c = __builtin_shufflevector(c, zero, 0, 4, 2, 6);
-  const Four y_c = __builtin_shufflevector(c, zero, 1, 5, 3, 7);
-  return __builtin_shufflevector(xz_ab, xz_c, 0, 1, 4, 5) +
-         (__builtin_shufflevector(y_ab, y_c, 0, 1, 4, 5) +
-          __builtin_shufflevector(xz_ab, xz_c, 2, 3, 6, 7));
-}
-
 // y = A x of one vector, with one more number than x has at its end, and four numbers per node in
 // y, the fourth of which is unused.
 PALPATE_WIDE void multiply_one(const BlockProduct& a, const double* __restrict x,
@@ -103,7 +79,7 @@ PALPATE_WIDE void multiply_one(const BlockProduct& a, const double* __restrict x
       sum += first * all(from[0]) + (second * all(from[1]) + third * all(from[2]));
       double* const to = y + 4 * other;
       store(to, load(to) + (a.straight ? first * u + (second * v + third * w)
-                                       : sums(first * own, second * own, third * own)));
+                                       : sums(first * own, second * own, third * own, Four{})));
     }
     store(y + 4 * n, load(y + 4 * n) + sum);
   }
@@ -222,7 +198,7 @@ void BlockMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   if (count == 0) return;
   from.resize(3 * count + 1);
   to.resize(4 * count);
-  std::copy(x.begin(), x.end(), from.begin());
+  std::ranges::copy(x, from.begin());
   multiply_one(BlockProduct(*this), from.data(), to.data());
   collect(to.data(), y.data(), count);
 }

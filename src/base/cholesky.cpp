@@ -8,7 +8,6 @@
 #include <cmath>
 #include <csignal>
 #include <utility>
-#include <vector>
 
 #include "base/index.h"
 

@@ -56,8 +56,8 @@ Place place_at(std::string_view text, std::size_t offset, const std::string& fil
   const auto before = text.substr(0, offset);
   const std::size_t line_start = before.find_last_of('\n') + 1;  // npos + 1 is 0: the first line
   const auto in_line = before.substr(line_start);
-  return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          1 + static_cast<int>(std::count_if(in_line.begin(), in_line.end(), starts_character))};
+  return {file, 1 + static_cast<int>(std::ranges::count(before, '\n')),
+          1 + static_cast<int>(std::ranges::count_if(in_line, starts_character))};
 }
 
 // `place` and `description` are the parser's; the result has the place where the mistake starts.
@@ -101,8 +101,8 @@ Problem toml_problem(std::string_view text, const Place& place, std::string_view
   }
   if (says("expected a comment or whitespace"))
     return {place,
-            "a value is followed by more on its line; put quantities in double quotes, as "
-            "`\"5 mm\"`, and each key on a line of its own"};
+            "a value is followed by more on its line; put quantities in double quotes, as `\"5 "
+            "mm\"`, and each key on a line of its own"};
   if (says("determine value type"))
     return {place, "this is not a TOML value; put words in double quotes"};
   const std::size_t colon = description.find(": ");
@@ -125,10 +125,9 @@ Node convert(const toml::node& value, const std::string& file) {
     for (const auto& [key, child] : *table)
       node.members.push_back(
           {std::string(key.str()), place_of(key.source(), file), convert(child, file)});
-    std::stable_sort(
-        node.members.begin(), node.members.end(), [](const Member& a, const Member& b) {
-          return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
-        });
+    std::ranges::stable_sort(node.members, [](const Member& a, const Member& b) {
+      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+    });
   } else if (const auto* array = value.as_array()) {
     node.kind = Node::Kind::array;
     for (const toml::node& child : *array) node.items.push_back(convert(child, file));
@@ -156,7 +155,7 @@ std::size_t first_binary_byte(std::string_view text) {
     const auto byte = static_cast<unsigned char>(c);
     return (byte < 0x20 && c != '\n' && c != '\r' && c != '\t') || byte == 0x7f;
   };
-  return as_index(std::find_if(text.begin(), text.end(), binary) - text.begin());
+  return as_index(std::ranges::find_if(text, binary) - text.begin());
 }
 
 // Keys of more words, and deeper lists, occur in no document of ours. The parser and what follows
@@ -367,8 +366,8 @@ void set_value(Node& root, std::string_view path, Node value, const Place& origi
     Node& parent = *node;
     if (word.empty())
       throw InputError(origin, "`" + std::string(path) +
-                                   "` has an empty word; join the names of "
-                                   "tables and a key by single dots, as `tissue.material`");
+                                   "` has an empty word; join the names of tables and a key by "
+                                   "single dots, as `tissue.material`");
     node = &descend(parent, {words, i}, origin);
     last = nullptr;
     for (Member& member : parent.members)
@@ -439,8 +438,8 @@ std::string lines(const Node& table) {
 
 bool is_list_of_tables(const Node& node) {
   return node.kind == Node::Kind::array && !node.items.empty() &&
-         std::all_of(node.items.begin(), node.items.end(),
-                     [](const Node& item) { return item.kind == Node::Kind::table; });
+         std::ranges::all_of(node.items,
+                             [](const Node& item) { return item.kind == Node::Kind::table; });
 }
 
 }  // namespace
@@ -462,7 +461,7 @@ std::string toml_text(std::string_view text) {
 }
 
 std::string toml_key(std::string_view key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+  const bool bare = !key.empty() && std::ranges::all_of(key, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   });

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <tuple>
-#include <utility>
 
 #include "base/text.h"
 
@@ -38,12 +37,12 @@ void sort_by_place(std::vector<Problem>& problems) {
   std::vector<std::string> files;  // in the order of their first problems
   for (const Problem& problem : problems) files.push_back(problem.place.file);
   const auto rank = [&](const Problem& problem) {
-    const auto file = std::find(files.begin(), files.end(), problem.place.file) - files.begin();
+    const auto file = std::ranges::find(files, problem.place.file) - files.begin();
     const Place& place = problem.place;
     return std::tuple(place.line == 0, file, place.line, place.column);
   };
-  std::stable_sort(problems.begin(), problems.end(),
-                   [&](const Problem& a, const Problem& b) { return rank(a) < rank(b); });
+  std::ranges::stable_sort(problems,
+                           [&](const Problem& a, const Problem& b) { return rank(a) < rank(b); });
 }
 
 InputError::InputError(std::vector<Problem> problems)

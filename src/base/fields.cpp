@@ -375,7 +375,7 @@ class Reader final : public FieldVisitor {
       auto inside = whole_number(text);
       if (given && given->rest.starts_with(',')) {  // a decimal comma
         std::string point = text;
-        std::replace(point.begin(), point.end(), ',', '.');
+        std::ranges::replace(point, ',', '.');
         inside = whole_number(point);
       }
       if (given && trimmed(given->rest) == "%") inside = given->value / 100.0;
@@ -481,12 +481,12 @@ class Reader final : public FieldVisitor {
                                std::span<const Word> words) {
     std::vector<std::string> known;
     for (const Word& word : words) known.emplace_back(word.word);
-    const auto at = std::find(known.begin(), known.end(), node.text);
+    const auto at = std::ranges::find(known, node.text);
     if (node.kind == Node::Kind::text && at != known.end())
       return static_cast<int>(at - known.begin());
     choices_read_ = false;
     for (const auto& [old, now] : renamed)
-      if (node.text == old && std::find(known.begin(), known.end(), now) != known.end()) {
+      if (node.text == old && std::ranges::find(known, now) != known.end()) {
         problem(node.place, ticked(name) + " calls " + ticked(old) + " " + ticked(now) +
                                 " now; write `" + name + " = \"" + now + "\"`");
         return std::nullopt;

@@ -139,7 +139,7 @@ class FieldVisitor {
   void choice_or(const Word& open, const Key& key, std::optional<Enum>& value,
                  const Words<Enum, size>& words) {
     std::array<Word, size + 1> all{open};
-    std::copy(words.begin(), words.end(), all.begin() + 1);
+    std::ranges::copy(words, all.begin() + 1);
     int index = value ? static_cast<int>(*value) + 1 : 0;
     choice_of(key, index, all);
     value = index > 0 ? std::optional(static_cast<Enum>(index - 1)) : std::nullopt;

@@ -15,7 +15,6 @@
 #include <cstring>
 #include <filesystem>
 #include <span>
-#include <utility>
 
 #include "base/error.h"
 #include "base/index.h"
@@ -282,7 +281,7 @@ std::vector<std::string> entries_of(const std::string& folder) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
     paths.push_back(entry.path().string());
-  std::sort(paths.begin(), paths.end());
+  std::ranges::sort(paths);
   return paths;
 }
 
@@ -290,7 +289,7 @@ std::string host_name() {
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
   std::string text = name.data();
-  std::replace(text.begin(), text.end(), '/', '_');
+  std::ranges::replace(text, '/', '_');
   return text;
 }
 

@@ -19,7 +19,6 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Numbers that are computed at once.
 using Two = double __attribute__((vector_size(16)));
-using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
 // Eight rows by four columns: the sums over k < depth of eight numbers a_k times four numbers b_k,
@@ -61,7 +60,7 @@ Graph node_graph(const SparseMatrix& lower, std::span<const int> first) {
     }
   Graph graph;
   for (std::vector<int>& list : around) {
-    std::sort(list.begin(), list.end());
+    std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
     graph.to.insert(graph.to.end(), list.begin(), list.end());
     graph.start.push_back(static_cast<idx_t>(graph.to.size()));
@@ -113,7 +112,7 @@ Elimination eliminate(const Graph& graph, const std::vector<int>& order) {
       take(place[as_index(graph.to[as_index(k)])]);
     for (const int child : children[as_index(i)])
       for (const int j : found.later[as_index(child)]) take(j);
-    std::sort(later.begin(), later.end());
+    std::ranges::sort(later);
     if (later.empty()) continue;
     found.parent[as_index(i)] = later.front();
     children[as_index(later.front())].push_back(i);
@@ -347,7 +346,7 @@ void FrontCholesky::analyse(const SparseMatrix& lower, std::span<const int> firs
 }
 
 bool FrontCholesky::factor(const SparseMatrix& lower) {
-  std::fill(values_.begin(), values_.end(), 0.0);
+  std::ranges::fill(values_, 0.0);
   // What a front leaves to its parent is a lower triangle by columns of full height. The triangles
   // wait in one stack: in postorder those of a front's children are on top of it.
   std::vector<std::size_t> left(fronts_.size(), 0);  // where each begins

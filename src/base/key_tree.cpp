@@ -125,8 +125,7 @@ class Collector final : public FieldVisitor {
 void flatten(const KeyTree& table, const std::string& prefix, std::vector<FlatKey>& flat) {
   const auto add = [&](const std::string& path, const std::string& meaning,
                        const std::vector<Word>& words) {
-    const auto known = std::find_if(flat.begin(), flat.end(),
-                                    [&](const FlatKey& one) { return one.path == path; });
+    const auto known = std::ranges::find(flat, path, &FlatKey::path);
     if (known == flat.end()) flat.push_back({path, meaning, words});
   };
   const auto add_all = [&](const std::vector<KeyTree>& keys) {
@@ -217,7 +216,7 @@ void add_sections(const std::string& title, const std::string& meaning, const st
   };
   text += "\n## " + title + "\n";
   if (!meaning.empty()) text += "\n" + meaning + "\n";
-  if (!std::all_of(keys.begin(), keys.end(), is_table)) text += table_head;
+  if (!std::ranges::all_of(keys, is_table)) text += table_head;
   for (const KeyTree& key : keys)
     if (!is_table(key))
       (key.of_the_paper ? of_the_paper : text) +=

@@ -87,8 +87,8 @@ bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> 
       Vec3 change = matrix.change(k);
       for (int axis = 0; axis < 3; ++axis)
         if (held[as_index(3 * node + axis)] != 0) change[axis] = 0.0;
-      const auto same = std::find_if(own.begin(), own.end(),
-                                     [&](const auto& entry) { return entry.first == group(node); });
+      const auto same =
+          std::ranges::find_if(own, [&](const auto& entry) { return entry.first == group(node); });
       if (same == own.end())
         own.emplace_back(group(node), change);
       else
@@ -97,7 +97,7 @@ bool CoarseCorrection::prepare(const BlockMatrix& matrix, std::span<const char> 
     for (const auto& [a, unused] : own)
       for (const auto& [b, unused_too] : own) pair(a, b);
   }
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 
   BlockMatrix coarse(count, pairs);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,7 +57,7 @@ template <std::size_t lanes, class Multiply, class Precondition, class SquaredEr
   Lanes rest = dot(v.r, v.p);
   std::array<bool, lanes> done{};
   for (std::size_t l = 0; l < lanes; ++l) done[l] = rest[l] == 0.0;
-  for (std::size_t i = 0; !std::all_of(done.begin(), done.end(), std::identity{}); ++i) {
+  for (std::size_t i = 0; !std::ranges::all_of(done, std::identity{}); ++i) {
     if (i == most) return false;
     StopScope::end_if_stopped();
     multiply(v.p, v.image);

@@ -147,10 +147,9 @@ std::vector<std::string> dissolve(const fs::path& old, const fs::path& place) {
       moved = rename_where_free(entry, place / kept);
     }
     if (moved && kept != name)
-      sentences.push_back(
-          (place / kept).string() + " is the `" + name +
-          "` of the replaced result; it is kept because it is not, or no longer, as palpate "
-          "wrote it");
+      sentences.push_back((place / kept).string() + " is the `" + name +
+                          "` of the replaced result; it is kept because it is not, or no longer, "
+                          "as palpate wrote it");
     if (moved || errno == ENOENT) continue;  // ENOENT: another process has moved it
     all_moved = false;
     sentences.push_back(entry.string() + " cannot be moved to " + place.string() + ": " +
@@ -316,10 +315,10 @@ void WholeFolder::refuse_what_is_there() const {
                            "; give `--force` to replace it, or another `--out`");
   }
   if (there == State::foreign)
-    throw InputError({path_, 0, 0}, "is there already and is not a " + kind_ +
-                                        " that palpate wrote (its `" + list_name +
-                                        "` is missing or says something else); rename it, or give "
-                                        "another `--out`");
+    throw InputError(
+        {path_, 0, 0},
+        "is there already and is not a " + kind_ + " that palpate wrote (its `" + list_name +
+            "` is missing or says something else); rename it, or give another `--out`");
 }
 
 // Process numbers repeat, soon in containers; an abandoned folder's name is therefore not reused.
@@ -363,10 +362,9 @@ std::vector<std::string> WholeFolder::put(State content, std::vector<std::string
   const auto may_replace = [&](const std::string& folder) {
     const std::optional<std::string> there_listed = list_of(folder);
     if (!there_listed && is_there(fs::path(folder) / list_name))
-      throw SystemError(folder + "/" + list_name +
-                        " cannot be read, so that nothing is replaced; the result of this run is "
-                        "in " +
-                        partial_);
+      throw SystemError(
+          folder + "/" + list_name +
+          " cannot be read, so that nothing is replaced; the result of this run is in " + partial_);
     const State there = there_listed ? state_by(*there_listed, kind_) : state_of(folder, kind_);
     if (there == State::complete)
       return content == State::complete &&

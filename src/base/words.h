@@ -24,6 +24,22 @@ template <auto value>
   return shown.substr(shown.rfind(':') + 1);
 }
 
+// The names of the enumerators up to `last`, which end with a zero.
+template <auto last>
+inline constexpr auto enumerator_names = []<std::size_t... i>(std::index_sequence<i...>) {
+  std::array<std::array<char, 32>, sizeof...(i)> names{};
+  const std::array views{enumerator_name<static_cast<decltype(last)>(i)>()...};
+  for (std::size_t k = 0; k < views.size(); ++k) views[k].copy(names[k].data(), 31);
+  return names;
+}
+(std::make_index_sequence<as_index(last) + 1>());
+
+// The name of an enumerator; `last` is the last of them.
+template <auto last>
+[[nodiscard]] constexpr const char* name_of(decltype(last) value) {
+  return enumerator_names<last>[as_index(value)].data();
+}
+
 // Whether for every enumerator i `table[i].word` is its name and, if the rows have a member `of`,
 // `table[i].of` is the enumerator. Assert this for every table that is indexed by an enumerator.
 template <class Enum, class Row, std::size_t size>

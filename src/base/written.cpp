@@ -11,7 +11,7 @@ std::string count_text(std::size_t count, std::string_view word) {
 }
 
 std::size_t letter_count(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;  // not the later bytes of a letter
   }));
 }

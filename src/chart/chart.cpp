@@ -327,12 +327,6 @@ std::vector<double> each(const Measurement& one, const Of& of) {
 
 }  // namespace
 
-const char* status_word(Status status) {
-  constexpr auto words =
-      words_of<Status>({{"measured", ""}, {"diverged", ""}, {"cannot", ""}, {"not_run", ""}});
-  return word(words, status);
-}
-
 std::vector<double> Measurement::costs() const {
   return each(*this, [&](const Timing& timing) { return cost_of(*this, timing); });
 }

@@ -30,7 +30,9 @@ struct Timing {
 };
 
 enum class Status { measured, diverged, cannot, not_run };
-[[nodiscard]] const char* status_word(Status status);
+[[nodiscard]] constexpr const char* status_word(Status status) {
+  return name_of<Status::not_run>(status);
+}
 
 struct Measurement {
   Variant variant;

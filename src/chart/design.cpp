@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "base/fields.h"
@@ -11,7 +10,6 @@
 #include "base/text.h"
 #include "run/choose.h"
 #include "run/refined_mesh.h"
-#include "scenario/family.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"
@@ -153,9 +151,9 @@ class Designer {
         shapes_(shapes) {
     meshed_ = run::choose(opened(asked, of_case)).chosen.solver.model;
     if (!scenario::traits(meshed_).meshed())
-      meshed_ = std::find_if(scenario::model_table.begin(), scenario::model_table.end(),
-                             std::mem_fn(&scenario::ModelTraits::meshed))
-                    ->of;
+      meshed_ =
+          std::ranges::find_if(scenario::model_table, std::mem_fn(&scenario::ModelTraits::meshed))
+              ->of;
     integrator_ = word_of(base_integrator(one_));
   }
 
@@ -353,10 +351,9 @@ Asked read_for_chart(const std::string& path, const std::string& text, const Set
                          " cases, and `sweep` makes " + std::to_string(family.cases.size()) +
                          "; give shorter lists");
   refuse_own_keys(family);
-  refuse_forces(
-      family,
-      "a step to a force ends elsewhere in every configuration, and `palpate chart` compares "
-      "forces at equal displacements; give a displacement");
+  refuse_forces(family,
+                "a step to a force ends elsewhere in every configuration, and `palpate chart` "
+                "compares forces at equal displacements; give a displacement");
   return parsed(path, text, settings);
 }
 

@@ -2,7 +2,6 @@
 #include "chart/reference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/doing.h"
@@ -284,9 +283,7 @@ scene::Scene solid_scene(scenario::Case one, const scenario::Family& family, dou
 
 void warn_of_error(Reference& reference) {
   if (reference.rows.empty()) return;
-  const auto worst = std::max_element(
-      reference.rows.begin(), reference.rows.end(),
-      [](const ReferenceRow& a, const ReferenceRow& b) { return a.force < b.force; });
+  const auto worst = std::ranges::max_element(reference.rows, {}, &ReferenceRow::force);
   if (!(worst->force > 0.0)) return;
   reference.warnings.push_back("further refinement may change the greatest force, " +
                                rounded_text(worst->force) + " N, by " +

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/text.h"
 #include "plot/gnuplot_text.h"
@@ -22,7 +21,7 @@ std::vector<std::size_t> pareto_front(std::span<const Tradeoff> all) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (counts(all[i])) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return all[a].cost != all[b].cost ? all[a].cost < all[b].cost : all[a].error < all[b].error;
   });
   std::vector<std::size_t> front;
@@ -63,7 +62,7 @@ struct Spread {
 
 // For at least one value; the median of an even number of values is the lower middle one.
 Spread spread(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return {values.front(), values[(values.size() - 1) / 2], values.back()};
 }
 
@@ -161,7 +160,7 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
   const auto flag = [&](bool is) { row.emplace_back(is ? 1.0 : 0.0); };
   row.emplace_back(static_cast<double>(one.timings.size()));
   flag(verdict.error[i] > 0.0 && verdict.error[i] <= chart.tolerance);
-  flag(std::find(verdict.front.begin(), verdict.front.end(), i) != verdict.front.end());
+  flag(std::ranges::find(verdict.front, i) != verdict.front.end());
   flag(verdict.knee == i);
   flag(verdict.taken == i);
   row.push_back(word(joined(one.variant.settings, "; ")));
@@ -182,6 +181,16 @@ class Speaker {
                        within() + displaced() + "\n\n" + at_knee() + "\n\n" + real_time() +
                        in_time() + front() + "\n" + rest();
     return text;
+  }
+
+  [[nodiscard]] ChartSentences sentences() const {
+    ChartSentences said{.reference = "Reference: " + chart_.truth.sentence + ".",
+                        .result = within() + displaced()};
+    if (verdict_.cheapest_within)
+      said.settings = "Its settings: " + settings(*verdict_.cheapest_within) + displaced();
+    for (const std::string& text : {at_knee(), real_time(), in_time()})
+      if (const std::string one = trimmed(text); one.ends_with('.')) said.more.push_back(one);
+    return said;
   }
 
  private:
@@ -219,8 +228,13 @@ class Speaker {
              tolerance + "; nearest is " + named(*verdict_.nearest) + ": " +
              how(*verdict_.nearest) + ".";
     const std::size_t best = *verdict_.cheapest_within;
-    std::string text = "Within the tolerance of " + tolerance + ", the cheapest is " + named(best) +
-                       ": " + how(best);
+    return "Within the tolerance of " + tolerance + ", the cheapest is " + named(best) + ": " +
+           settings(best);
+  }
+
+  // Those of the cheapest within the tolerance, and what `auto` took.
+  [[nodiscard]] std::string settings(std::size_t best) const {
+    std::string text = how(best);
     if (!verdict_.taken) return text + "; what `auto` takes was not measured.";
     const std::size_t taken = *verdict_.taken;
     if (taken == best) return text + "; `auto` took it.";
@@ -253,8 +267,8 @@ class Speaker {
            "; the displaced surface within four contact radii is off by " +
            percent(*springs->surface_error) + " with `mass_spring` and by " +
            percent(*coupled->surface_error) +
-           " with `coupled_springs` (root mean square over the largest displacement, compared "
-           "with `solid`, whose own error there is " +
+           " with `coupled_springs` (root mean square over the largest displacement, compared with "
+           "`solid`, whose own error there is " +
            percent(chart_.surface.error) + ").";
   }
 
@@ -304,9 +318,9 @@ class Speaker {
     const auto in_group = [](const Measurement& one) {
       return one.variant.group == "integrator x time step";
     };
-    const bool press = std::any_of(chart_.rows.begin(), chart_.rows.end(),
-                                   [](const Measurement& one) { return !one.coupling.empty(); });
-    if (press && std::none_of(chart_.rows.begin(), chart_.rows.end(), in_group))
+    const bool press = std::ranges::any_of(
+        chart_.rows, [](const Measurement& one) { return !one.coupling.empty(); });
+    if (press && std::ranges::none_of(chart_.rows, in_group))
       return "All integrators and steps give the same force, which does not depend on the motion "
              "of the mesh.\n\n";
     if (best.empty()) return "";
@@ -323,8 +337,7 @@ class Speaker {
   [[nodiscard]] std::string front() const {
     std::string text =
         "The front, from cheap to accurate:\n\n| configuration | error | displaced surface | us "
-        "per "
-        "ms | set-up |\n|---|---|---|---|---|\n";
+        "per ms | set-up |\n|---|---|---|---|---|\n";
     for (const std::size_t i : verdict_.front)
       text +=
           "| `" + name(i) + "`" + (verdict_.knee == i ? " (knee)" : "") + " | " + error(i) + " | " +
@@ -413,6 +426,8 @@ std::string chart_text(const std::vector<CaseChart>& charts) {
   return text;
 }
 
+ChartSentences chart_sentences(const CaseChart& chart) { return Speaker(chart).sentences(); }
+
 std::string set_line(const std::vector<std::string>& settings) {
   if (settings.empty()) return "as the scenario stands";
   std::string text = "`";
@@ -492,8 +507,7 @@ std::string guides(const Scatter& scatter) {
          ", graph 1 nohead dashtype (6,4) linecolor rgb '#808080'\n"
          "set label 1 'real time' at first " +
          cost +
-         ", graph 0.99 offset -0.4,0 right textcolor rgb "
-         "'#606060' font ',12'\n"
+         ", graph 0.99 offset -0.4,0 right textcolor rgb '#606060' font ',12'\n"
          "set arrow 2 from graph 0, first " +
          tolerance + " to graph 1, first " + tolerance +
          " nohead dashtype (6,4) linecolor rgb '#808080'\n"
@@ -520,8 +534,8 @@ std::string points(const Scatter& scatter, const std::string& model,
   return using_rows(scatter, "strcol('model') eq " + plot::gnuplot_quoted(model) +
                                  " && strcol('integrator') eq " +
                                  plot::gnuplot_quoted(integrator)) +
-         ":(column('cost_min_us_per_ms')):(column('cost_max_us_per_ms')) with xerrorbars "
-         "linewidth 1.2 linecolor rgb '#50" +
+         ":(column('cost_min_us_per_ms')):(column('cost_max_us_per_ms')) with xerrorbars linewidth "
+         "1.2 linecolor rgb '#50" +
          colour_of(model) + "' pointtype " + marker(integrator) + " pointsize 0.8 notitle";
 }
 

@@ -59,6 +59,14 @@ struct Verdict {
 // chart.md: the findings of each case in markdown.
 [[nodiscard]] std::string chart_text(const std::vector<CaseChart>& charts);
 
+// Its sentences for a page.
+struct ChartSentences {
+  std::string reference, result;
+  std::string settings = {};           // the result below a headline that has its configuration
+  std::vector<std::string> more = {};  // the knee, what runs in real time, time integration
+};
+[[nodiscard]] ChartSentences chart_sentences(const CaseChart& chart);
+
 // `--set "key=value" ...`, quoted for a shell; `as the scenario stands` for none.
 [[nodiscard]] std::string set_line(const std::vector<std::string>& settings);
 

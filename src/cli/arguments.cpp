@@ -3,15 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <string_view>
 #include <thread>
 #include <tuple>
 
 #include "base/error.h"
 #include "base/text.h"
-#include "commands/command.h"
 #include "device/link.h"
 #include "fit/regression.h"
 #include "report/export.h"
@@ -30,8 +27,29 @@ CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& words) 
   return option->type_name(joined(words, "|"))->check(CLI::IsMember(words).description(""));
 }
 
+void add_scenario(CLI::App& verb, std::string& scenario, const char* what = "Scenario file") {
+  verb.add_option("scenario", scenario, what)->required()->type_name("SCENARIO");
+}
+
+// An option that may be given several times.
+CLI::Option* add_pairs(CLI::App& verb, const char* name, std::vector<std::string>& pairs,
+                       const char* what) {
+  return verb.add_option(name, pairs, what)->type_name("KEY=VALUE")->allow_extra_args(false);
+}
+
 void add_settings(CLI::App& verb, std::vector<std::string>& settings) {
-  verb.add_option("--set", settings, "Set a key")->type_name("KEY=VALUE")->allow_extra_args(false);
+  add_pairs(verb, "--set", settings, "Set a key");
+}
+
+// A verb within a verb, which sets the act.
+template <class Verb>
+CLI::App* add_act(CLI::App& all, Verb& verb, typename Verb::Act act, const char* name,
+                  const char* what) {
+  all.require_subcommand(1);
+  all.fallthrough();
+  CLI::App* inner = all.add_subcommand(name, what);
+  inner->callback([&verb, act] { verb.act = act; });
+  return inner;
 }
 
 void add_out(CLI::App& verb, std::string& out) {
@@ -64,8 +82,8 @@ void add_data(CLI::App& verb, DataOptions& data) {
   verb.add_option("--compression", data.compression, "Sign of compression in the file")
       ->type_name("positive|negative|auto");
   verb.add_option("--segment", data.segment,
-                  "Only approach or retract, or a value of the column `segment` or `step`; "
-                  "NAME:2 is the second of that name");
+                  "Only approach or retract, or a value of the column `segment` or `step`; NAME:2 "
+                  "is the second of that name");
   verb.add_option("--where", data.where, "Only rows with this value: COLUMN=VALUE")
       ->allow_extra_args(false);
   verb.add_option("--rows", data.rows, "Only these rows of the table, as 100..2000");
@@ -201,38 +219,30 @@ void add_options(CLI::App& verb, Compare& compare) {
 }
 
 void add_options(CLI::App& all, Golden& golden) {
-  all.require_subcommand(1);
-  all.fallthrough();
-  const auto add = [&](const char* name, Golden::Act act, const char* what) {
-    CLI::App* verb = all.add_subcommand(name, what);
-    verb->callback([&golden, act] { golden.act = act; });
-    return verb;
-  };
-  CLI::App* verb =
-      add("add", Golden::Act::add, "Run scenarios and store their results beside them as baseline");
+  CLI::App* verb = add_act(all, golden, Golden::Act::add, "add",
+                           "Run scenarios and store their results beside them as baseline");
   verb->add_option("scenario", golden.subjects, "Scenario files")->required();
   add_jobs(*verb, golden.jobs);
   verb->add_flag("--force", golden.force, "Replace the baseline");
   verb->add_option("--reason", golden.reason,
                    "Why it may change: stored with it, beside commit and compiler");
-  verb = add("check", Golden::Act::check, "Run scenarios and compare with their baselines");
+  verb = add_act(all, golden, Golden::Act::check, "check",
+                 "Run scenarios and compare with their baselines");
   verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
   add_jobs(*verb, golden.jobs);
   add_check_options(*verb, golden.options);
-  verb = add("list", Golden::Act::list, "The scenarios that have a baseline");
+  verb = add_act(all, golden, Golden::Act::list, "list", "The scenarios that have a baseline");
   verb->add_option("subject", golden.subjects, "Scenarios or folders; none: this folder");
 }
 
 void add_options(CLI::App& verb, Convert& convert) {
-  verb.add_option(
-          "subject", convert.subject,
-          "Surface (.stl .obj .ply .off .vtp), mesh (.msh .vtu .vtk .inp .mesh .node .ele), "
-          "scenario (.toml), or a result folder or CSV file")
+  verb.add_option("subject", convert.subject,
+                  "Surface (.stl .obj .ply .off .vtp), mesh (.msh .vtu .vtk .inp .mesh .node "
+                  ".ele), scenario (.toml), or a result folder or CSV file")
       ->required();
-  verb.add_option(
-          "--out", convert.out,
-          "File to write: .vtu, .node or .ele (both, in metres), of a surface .off or .stl; "
-          "of results the folder")
+  verb.add_option("--out", convert.out,
+                  "File to write: .vtu, .node or .ele (both, in metres), of a surface .off or "
+                  ".stl; of results the folder")
       ->allow_extra_args(false);
   verb.add_flag("--force", convert.force, "Replace files");
   heading(verb, "Of surfaces, meshes and scenarios");
@@ -245,9 +255,7 @@ void add_options(CLI::App& verb, Convert& convert) {
   verb.add_option("--repair-up-to", convert.repair_up_to,
                   "For a surface: share of the area that holes may have, as 0.1 [0.02]")
       ->check(CLI::Range(0.0, 0.5));
-  verb.add_option("--set", convert.settings, "Set a scenario's key")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_pairs(verb, "--set", convert.settings, "Set a scenario's key");
   heading(verb, "Of results");
   std::vector<std::string> formats;
   for (const report::ExportFormat& format : report::export_formats())
@@ -257,9 +265,7 @@ void add_options(CLI::App& verb, Convert& convert) {
 }
 
 void add_options(CLI::App& verb, Reference& reference) {
-  verb.add_option("scenario", reference.scenario, "Scenario file")
-      ->required()
-      ->type_name("SCENARIO");
+  add_scenario(verb, reference.scenario);
   add_settings(verb, reference.settings);
   verb.add_option("--out", reference.out, "Folder to write SCENARIO_reference.csv into");
   verb.add_flag("--force", reference.force, "Replace that file");
@@ -284,28 +290,23 @@ void add_options(CLI::App& verb, Chart& chart) {
 }
 
 void add_options(CLI::App& verb, Stability& stability) {
-  verb.add_option("scenario", stability.scenario, "Scenario file")
-      ->required()
-      ->type_name("SCENARIO");
+  add_scenario(verb, stability.scenario);
   add_settings(verb, stability.settings);
   add_out(verb, stability.out);
   verb.add_flag("--force", stability.force, "Replace a finished map");
 }
 
 void add_options(CLI::App& all, Sweep& sweep) {
-  all.require_subcommand(1);
-  all.fallthrough();
   const auto add = [&](const char* name, Sweep::Act act, const char* what) {
-    CLI::App* verb = all.add_subcommand(name, what);
-    verb->callback([&sweep, act] { sweep.act = act; });
-    const bool plan = act == Sweep::Act::plan;
-    verb->add_option(plan ? "scenario" : "folder", sweep.subject,
-                     plan ? "Scenario file with a [sweep]" : "Folder of the plan")
+    CLI::App* inner = add_act(all, sweep, act, name, what);
+    inner->add_option("folder", sweep.subject, "Folder of the plan")
         ->required()
-        ->type_name(plan ? "SCENARIO" : "FOLDER");
-    return verb;
+        ->type_name("FOLDER");
+    return inner;
   };
-  CLI::App* verb = add("plan", Sweep::Act::plan, "Check all cases and write the plan");
+  CLI::App* verb =
+      add_act(all, sweep, Sweep::Act::plan, "plan", "Check all cases and write the plan");
+  add_scenario(*verb, sweep.subject, "Scenario file with a [sweep]");
   add_settings(*verb, sweep.settings);
   verb->add_option("--out", sweep.out, "The plan goes to OUT/SCENARIO_sweep")
       ->type_name("FOLDER")
@@ -354,9 +355,7 @@ void add_options(CLI::App& all, Sweep& sweep) {
 
 void add_options(CLI::App& verb, Identify& identify) {
   verb.add_option("data", identify.data, "CSV file of the measurement")->required();
-  verb.add_option("scenario", identify.scenario, "Scenario of the test")
-      ->required()
-      ->type_name("SCENARIO");
+  add_scenario(verb, identify.scenario, "Scenario of the test");
   verb.add_option("--with", identify.with,
                   "A further measurement and its scenario, fitted together")
       ->type_name("DATA SCENARIO");
@@ -365,13 +364,9 @@ void add_options(CLI::App& verb, Identify& identify) {
   one_of(verb.add_option("--noise", identify.noise, "Noise of the measurement"),
          {"constant", "relative"})
       ->capture_default_str();
-  verb.add_option("--unknown", identify.unknowns, "Unknown with its range, KEY=LOW..HIGH")
-      ->required()
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  verb.add_option("--given", identify.givens, "Known with its deviation, KEY=\"VALUE +- SD\"")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_pairs(verb, "--unknown", identify.unknowns, "Unknown with its range, KEY=LOW..HIGH")
+      ->required();
+  add_pairs(verb, "--given", identify.givens, "Known with its deviation, KEY=\"VALUE +- SD\"");
   add_settings(verb, identify.settings);
   add_out(verb, identify.out);
   verb.add_flag("--force", identify.force, "Replace a finished result");
@@ -379,13 +374,10 @@ void add_options(CLI::App& verb, Identify& identify) {
 }
 
 void add_options(CLI::App& all, Device& device) {
-  all.require_subcommand(1);
-  all.fallthrough();
   const auto add = [&](const char* name, Device::Act act, const char* what) {
-    CLI::App* verb = all.add_subcommand(name, what);
-    verb->callback([&device, act] { device.act = act; });
-    verb->add_option("link", device.link, device::link_forms())->required();
-    return verb;
+    CLI::App* inner = add_act(all, device, act, name, what);
+    inner->add_option("link", device.link, device::link_forms())->required();
+    return inner;
   };
   add("probe", Device::Act::probe, "Identify the device; nothing moves, no force is sent");
   add("stop", Device::Act::stop, "Stop a stand, also one that another process moves");
@@ -487,8 +479,7 @@ void add_inner_examples(CLI::App& verb) {
 }
 
 const Listed& listing(std::string_view verb) {
-  return *std::find_if(listed.begin(), listed.end(),
-                       [&](const Listed& one) { return one.verb == verb; });
+  return *std::ranges::find(listed, verb, &Listed::verb);
 }
 
 // What a word that was a verb is called now.

@@ -40,7 +40,7 @@ std::vector<std::string> words_of(const chart::CaseChart& chart,
   std::vector<std::string> words;
   for (const chart::Measurement& one : chart.rows)
     if (one.status == chart::Status::measured &&
-        std::find(words.begin(), words.end(), one.*column) == words.end())
+        std::ranges::find(words, one.*column) == words.end())
       words.push_back(one.*column);
   return words;
 }
@@ -53,7 +53,7 @@ void set_series(const chart::CaseChart& chart, const chart::Verdict& verdict,
   for (std::size_t i = 0; i < chart.rows.size(); ++i) {
     if (verdict.cost[i] <= 0.0) continue;
     const std::pair pair(chart.rows[i].model, chart.rows[i].integrator);
-    if (std::find(scatter.series.begin(), scatter.series.end(), pair) == scatter.series.end())
+    if (std::ranges::find(scatter.series, pair) == scatter.series.end())
       scatter.series.push_back(pair);
     for (const double cost : chart.rows[i].costs()) {
       scatter.least_cost = std::min(scatter.least_cost, cost);
@@ -114,37 +114,30 @@ record::Table with_words(record::Table table) {
   return table;
 }
 
-// The page of a chart. `text` is chart.md, whose sentences are the answer: what its lists and its
-// table say stands in the table of variants.
+// The page of a chart.
 void write_page(const scenario::Family& family, const std::vector<chart::CaseChart>& charts,
-                const std::string& text, const record::Table& table, WholeFolder& folder) {
+                const record::Table& table, WholeFolder& folder) {
   page::Page page(family.title, "chart of speed and accuracy");
-  std::vector<std::string> sentences;
+  std::vector<std::string> answer, more;
   const bool several = family.cases.size() > 1;
   if (charts.size() == 1) add_headline(page, charts.front());
-  for (const std::string& line : split(text, '\n'))
-    if (line.starts_with("## ") && several)
-      sentences.push_back(line.substr(3) + ":");
-    else if (line.ends_with('.') && !line.starts_with("- "))
-      sentences.push_back(line);
-  const std::size_t first = several ? sentences.size() : std::min<std::size_t>(sentences.size(), 2);
-  if (const std::string again = "): "; charts.size() == 1 && first == 2) {
-    std::swap(sentences[0], sentences[1]);              // the reference is less than the result
-    const std::size_t said = sentences[0].find(again);  // in the headline, up to the settings
-    if (sentences[0].starts_with("Within") && said != std::string::npos)
-      sentences[0].replace(0, said + again.size(), "Its settings: ");
+  for (const chart::CaseChart& one : charts) {
+    const chart::ChartSentences said = chart::chart_sentences(one);
+    if (several)
+      answer.insert(answer.end(), {one.name + ":", said.reference, said.result});
+    else  // the headline says the configuration
+      answer = {said.settings.empty() ? said.result : said.settings, said.reference};
+    std::vector<std::string>& rest = several ? answer : more;
+    rest.insert(rest.end(), said.more.begin(), said.more.end());
   }
   page.answer({joined(scenario::tested(family.cases.front(), family.design.keys()), "; ")});
-  page.answer({sentences.begin(), sentences.begin() + static_cast<std::ptrdiff_t>(first)});
+  page.answer(answer);
   page.figures(page::all_figures(folder, [](const std::string&) {
-    return "Error against cost of every configuration; the line joins those that no "
-           "other beats in both.";
+    return "Error against cost of every configuration; the line joins those that no other beats in "
+           "both.";
   }));
   constexpr std::size_t most = 200;
-  page.section(
-      "In words",
-      page::paragraphs({sentences.begin() + static_cast<std::ptrdiff_t>(first), sentences.end()}),
-      page::Page::Shown::folded);
+  page.section("In words", page::paragraphs(more), page::Page::Shown::folded);
   const bool displaced = std::ranges::any_of(
       charts, [](const chart::CaseChart& one) { return !one.surface.pieces.empty(); });
   std::vector<std::string> results{"configuration",
@@ -163,19 +156,19 @@ void write_page(const scenario::Family& family, const std::vector<chart::CaseCha
                                                      "chart.csv", most));
   std::vector<std::string> rest = table.columns;  // each row is headed by its configuration
   std::erase_if(rest, [&](const std::string& name) {
-    return name == "case" ? !several
-                          : std::find(results.begin(), results.end(), name) != results.end();
+    return name == "case" ? !several : std::ranges::find(results, name) != results.end();
   });
   rest.insert(rest.begin(), "configuration");
   page.section("Settings",
                page::table_of_file("Settings, and what else was measured",
                                    page::columns_of(table, rest), "chart.csv", most),
                page::Page::Shown::folded);
-  page.section("How it was made",
-               page::making({.command = "palpate chart " + family.name + ".toml",
-                             .note = "Costs are times of the machine that measured them: only "
-                                     "the errors repeat."}),
-               page::Page::Shown::folded);
+  page.section(
+      "How it was made",
+      page::making(
+          {.command = "palpate chart " + family.name + ".toml",
+           .note = "Costs are times of the machine that measured them: only the errors repeat."}),
+      page::Page::Shown::folded);
   page::write(std::move(page), folder);
 }
 
@@ -225,7 +218,7 @@ int perform(const Chart& command, const Arguments&, const Talk& talk) {
   for (const auto& [name, moments] : journal.references())
     folder.write(name + ".csv", record::csv_text(moments));
   const std::vector<std::string> warnings = draw_all(charts, family, folder);
-  write_page(family, charts, text, table, folder);
+  write_page(family, charts, table, folder);
   const std::string missing = warn_all(folder.put(WholeFolder::State::complete, warnings), talk);
   journal.remove();
   print(talk.json() ? json_lines(table) : text);

@@ -5,7 +5,7 @@
 
 #include "cli/arguments.h"
 #include "cli/talk.h"
-#include "compare/forge.h"
+#include "compare/compare.h"
 
 namespace palpate::cli {
 

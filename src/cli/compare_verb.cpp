@@ -84,9 +84,8 @@ record::Table table_of(const std::vector<Item>& items, const Names& names) {
 // The results that differ, at most eight; of files without results, the first columns.
 page::Markup first_table(std::vector<Item> differing, const Names& names) {
   constexpr std::size_t most = 8;
-  const auto rest = std::find_if(differing.begin(), differing.end(), [](const Item& one) {
-    return one.rank > compare::last_result_rank;
-  });
+  const auto rest = std::ranges::find_if(
+      differing, [](const Item& one) { return one.rank > compare::last_result_rank; });
   if (rest != differing.begin()) differing.erase(rest, differing.end());
   if (differing.size() > most) differing.resize(most);
   if (differing.empty()) return {};
@@ -160,7 +159,7 @@ std::vector<std::string> cases_of(const record::Table& table) {
   if (const int at = table.find("case"); at >= 0)
     for (const auto& row : table.rows)
       if (const auto* name = std::get_if<std::string>(&row[as_index(at)]);
-          name != nullptr && std::find(cases.begin(), cases.end(), *name) == cases.end())
+          name != nullptr && std::ranges::find(cases, *name) == cases.end())
         cases.push_back(*name);
   return cases;
 }
@@ -190,8 +189,7 @@ std::optional<plot::Figure> overlay(const std::string& got, const std::string& w
   const std::vector<std::string> names = cases_of(left), wanted_names = cases_of(right);
   std::vector<std::array<std::string, 2>> cases;  // of both results
   for (const std::string& name : names)
-    if (std::find(wanted_names.begin(), wanted_names.end(), name) != wanted_names.end())
-      cases.push_back({name, name});
+    if (std::ranges::find(wanted_names, name) != wanted_names.end()) cases.push_back({name, name});
   constexpr std::size_t most = 3;
   if (cases.size() > most) {  // the worst one
     const std::string& worst = first != nullptr ? first->worst->case_name : cases.front()[0];
@@ -238,9 +236,8 @@ std::vector<page::Markup> overlays(const Compare& command,
     const auto at = [&](const std::string& root) {
       return folders ? root + "/" + file.file : root;
     };
-    const auto first = std::find_if(differing.begin(), differing.end(), [&](const Item& item) {
-      return item.file == file.file && item.column->worst;
-    });
+    const auto first = std::ranges::find_if(
+        differing, [&](const Item& item) { return item.file == file.file && item.column->worst; });
     const auto figure = overlay(at(command.got), at(command.want), file, names,
                                 first == differing.end() ? nullptr : first->column);
     if (!figure) continue;
@@ -283,8 +280,8 @@ void write_page(const Compare& command, const compare::FolderComparison& compari
   std::vector<Item> agreeing = compare::items_of(comparison);
   std::erase_if(agreeing, [](const Item& item) { return item.state == Item::State::failed; });
   const std::size_t all = differing.size() + agreeing.size();
-  const auto first = std::find_if(differing.begin(), differing.end(),
-                                  [](const Item& item) { return item.column->worst.has_value(); });
+  const auto first = std::ranges::find_if(
+      differing, [](const Item& item) { return item.column->worst.has_value(); });
   const compare::ColumnComparison* worst = first == differing.end() ? nullptr : first->column;
   if (comparison.equal()) {
     page.headline("Agrees", "in all " + std::to_string(all) + " columns");

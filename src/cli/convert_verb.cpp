@@ -1,7 +1,6 @@
 // `palpate convert`: meshes a surface or scenario, prints the quality of a mesh, and writes it;
 // writes results in the formats of other tools.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -122,8 +121,7 @@ std::vector<std::string> files_of(const std::string& out) {
   if (ending != ".node" && ending != ".ele")
     throw InputError(
         {out, 0, 0},
-        "`--out` wants the ending `.node`, `.ele` or `.vtu`, or `.off` or `.stl` for a "
-        "surface");
+        "`--out` wants the ending `.node`, `.ele` or `.vtu`, or `.off` or `.stl` for a surface");
   return {fs::path(path).replace_extension(".node").string(),
           fs::path(path).replace_extension(".ele").string()};
 }
@@ -186,8 +184,8 @@ scene::Scene scene_of(const Convert& command, const Talk& talk) {
     throw InputError(place_of(family.document, "solver.model"),
                      "the scenario is computed by `" +
                          std::string(scenario::traits(scene.scenario.solver.model).word) +
-                         "`, which has no mesh; give `--set "
-                         "solver.model=mass_spring` to see the one it would have");
+                         "`, which has no mesh; give `--set solver.model=mass_spring` to see the "
+                         "one it would have");
   return scene;
 }
 
@@ -343,8 +341,8 @@ std::string file_name(const std::string& name) {
 int write_results(const Convert& command, const Talk& talk) {
   const std::string out = command.out.empty() ? "." : command.out.front();
   const auto formats = report::export_formats();
-  const report::ExportFormat& format = *std::find_if(
-      formats.begin(), formats.end(), [&](const auto& one) { return one.name == command.format; });
+  const report::ExportFormat& format =
+      *std::ranges::find_if(formats, [&](const auto& one) { return one.name == command.format; });
   const std::string file = curve_file_of(command.subject);
   std::vector<report::ExportCurve> curves =
       report::export_curves(record::read_csv(file), name_of(command.subject));
@@ -372,8 +370,8 @@ int write_results(const Convert& command, const Talk& talk) {
     }
     if (!command.force && fs::exists(path) && !holds(path.string(), files.back().second))
       throw InputError({path.string(), 0, 0},
-                       "is there already and says something else; give `--force` to replace it, "
-                       "or another `--out`");
+                       "is there already and says something else; give `--force` to replace it, or "
+                       "another `--out`");
   }
   make_folders(out);
   for (const auto& [path, text] : files) {
@@ -397,8 +395,8 @@ int perform(const Convert& command, const Arguments&, const Talk& talk) {
     const scene::Scene scene = scene_of(command, talk);
     if (scene.solid) {
       talk.say(
-          "note: the elements of `solid` have ten nodes; this is the mesh of their corners, and "
-          "of a half or a quarter of the body where mirrors make it whole");
+          "note: the elements of `solid` have ten nodes; this is the mesh of their corners, and of "
+          "a half or a quarter of the body where mirrors make it whole");
       mesh = run::SolidPress(scene).corners();
       report.mesh(mesh, &scene.scenario);
     } else {

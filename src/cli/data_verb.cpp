@@ -157,7 +157,7 @@ std::string compressed_law(const measured::MeasuredCurve& curve, double scatter)
     displacement.push_back(curve.x[i]);
     force.push_back(curve.y[i]);
   }
-  const double deepest = *std::max_element(displacement.begin(), displacement.end());
+  const double deepest = *std::ranges::max_element(displacement);
   const auto left = [&](Uniaxial law, double most) {
     std::vector<double> strain = displacement;
     for (double& each : strain) each *= most / deepest;
@@ -186,8 +186,8 @@ LargeStrain large_strain(const measured::MeasuredCurve& curve) {
     return left_by(strain, curve.y, {.model = Uniaxial::ogden, .loading = each});
   };
   const std::string says =
-      "the stress bends away from a straight line, and a law of large strain describes all of "
-      "it: `--model ogden";
+      "the stress bends away from a straight line, and a law of large strain describes all of it: "
+      "`--model ogden";
   if (ogden(loading) < 0.5 * line) return {"ogden", says + "`"};
   if (loading == Loading::unknown &&
       std::min(ogden(Loading::compression), ogden(Loading::tension)) < 0.5 * line)
@@ -244,7 +244,7 @@ std::string contact_lines(const measured::MeasuredCurve& curve, std::string& pla
     return text;
   } catch (const InputError& error) {
     const std::string& why = error.problems().front().message;
-    const auto [least, most] = std::minmax_element(curve.y.begin(), curve.y.end());
+    const auto [least, most] = std::ranges::minmax_element(curve.y);
     const bool round = !is_straight(curve, 0.05 * (*most - *least));  // a line: R^2 above 0.97
     if (!round) platens = "modulus";
     talk.event("contact", {{"round_tip", round}, {"straight", !round}, {"why", why}});
@@ -257,9 +257,8 @@ std::string contact_lines(const measured::MeasuredCurve& curve, std::string& pla
 measured::MeasuredCurve guessed_curve(const Data& command) {
   measured::MeasuredCurve curve = measured::read_measured(command.data, command.columns);
   const double at = curve.x.empty() ? 0.0 : curve.x.back();
-  const auto stays = std::count_if(curve.x.begin(), curve.x.end(), [at](double x) {
-    return std::abs(x - at) <= 0.01 * std::abs(at);
-  });
+  const auto stays = std::ranges::count_if(
+      curve.x, [at](double x) { return std::abs(x - at) <= 0.01 * std::abs(at); });
   if (!command.columns.x.empty() || !(curve.x_axis.dimension == unit::mm.dimension) ||
       2 * as_index(stays) <= curve.x.size())
     return curve;
@@ -366,8 +365,7 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
     text += "x is `" + curve.x_axis.column + "`, y is `" + curve.y_axis.column + "`\n";
     talk.event("curve", {{"x", curve.x_axis.column}, {"y", curve.y_axis.column}});
     for (const std::string& sentence : curve.notes)
-      if (std::find(table.notes.begin(), table.notes.end(), sentence) == table.notes.end())
-        note(sentence);
+      if (std::ranges::find(table.notes, sentence) == table.notes.end()) note(sentence);
     if (curve.x_axis.dimension == unit::mm.dimension && curve.y_axis.dimension == unit::N.dimension)
       text += contact_lines(curve, law, talk);
     const bool stress = curve.x_axis.dimension == Dimension{} && curve.x_axis.has_unit &&
@@ -380,8 +378,8 @@ int perform(const Data& command, const Arguments&, const Talk& talk) {
     const bool specimen = stress || !law.empty();
     if (const int loadings = specimen ? loadings_of(curve.x) : 1; loadings > 1)
       note("the curve has " + std::to_string(loadings) +
-           " loadings, which differ by what the ones before did to the specimen: `--cycle` "
-           "chooses one");
+           " loadings, which differ by what the ones before did to the specimen: `--cycle` chooses "
+           "one");
     const std::string next = next_line(command, curve, law);
     text += "next: " + next + "\n";
     talk.event("next", {{"command", next}});

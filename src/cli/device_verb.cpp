@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <variant>
 #include <vector>
 
 #include "base/error.h"
@@ -130,7 +129,7 @@ std::string rate_sentence(const Session& session) {
 
 // The fault that most of the samples had, as a clause.
 std::string most_frequent(const device::Health& health) {
-  const auto most = std::max_element(health.faults.begin(), health.faults.end());
+  const auto most = std::ranges::max_element(health.faults);
   return *most == 0 ? "nothing came"
                     : std::string(device::fault_text(
                           static_cast<device::Fault>(most - health.faults.begin())));

@@ -93,8 +93,8 @@ std::vector<std::string> explain_time(const scene::Scene& scene) {
                   " spring updates a second of motion");
   if (solver.allow_unstable && !plan.stable())
     lines.emplace_back(
-        "  warning      the step is above the stability limit and will diverge; "
-        "`allow_unstable` permits it");
+        "  warning      the step is above the stability limit and will diverge; `allow_unstable` "
+        "permits it");
   const double literal = literal_step(scene.scenario.tissue.material);
   if (literal > limit)
     lines.push_back("  the paper    its literal time step of " + milliseconds(literal) + " is " +
@@ -134,7 +134,7 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
               {"criteria", Json::array()},
               {"models", Json::array()}};
   if (expected.answer.stated_error) object["error"] = *expected.answer.stated_error;
-  for (const run::Neglected& one : expected.neglected)
+  for (const record::Neglected& one : expected.answer.effects)
     object["neglected"].push_back({{"effect", one.what},
                                    {"change", one.change ? Json(*one.change) : Json()},
                                    {"text", one.when},

@@ -10,13 +10,9 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "cli/arguments.h"
-#include "fit/contact_model.h"
 #include "fit/parts.h"
 #include "fit/prony.h"
 #include "fit/residuals.h"
-#include "fit/uniaxial.h"
-#include "measured/measured.h"
 
 namespace palpate::cli {
 namespace {
@@ -32,7 +28,7 @@ constexpr auto uniaxial_models =
 constexpr auto series_models = std::to_array<std::string_view>({"prony", "prony_creep"});
 
 bool is_one_of(std::string_view word, Models words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
+  return std::ranges::find(words, word) != words.end();
 }
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
   return is_one_of(word, Models(words.begin(), words.size()));
@@ -166,7 +162,7 @@ fit::UniaxialTest::Loading loading_of(const Fit& command, const measured::Measur
   if (command.loading == "compression") return Loading::compression;
   if (command.loading == "tension") return Loading::tension;
   // A load that was turned because it is negative in compression.
-  const bool turned = std::any_of(curve.notes.begin(), curve.notes.end(), [](const auto& note) {
+  const bool turned = std::ranges::any_of(curve.notes, [](const auto& note) {
     return note.find("negative in compression") != std::string::npos;
   });
   const std::string names = lower_case(curve.x_axis.column + " " + curve.y_axis.column);
@@ -182,7 +178,7 @@ Strained strained(const Fit& command, const measured::MeasuredCurve& curve) {
   if (!curve.x_axis.stretch) return made;
   for (double& each : made.strain) each -= 1.0;
   const auto far = [](double one, double other) { return std::abs(one) < std::abs(other); };
-  const double most = *std::max_element(made.strain.begin(), made.strain.end(), far);
+  const double most = *std::ranges::max_element(made.strain, far);
   if (made.loading == fit::UniaxialTest::Loading::unknown && most > 0.0)
     made.loading = fit::UniaxialTest::Loading::tension;  // of stretches the sign tells
   return made;
@@ -197,17 +193,17 @@ void take_nominal(const measured::MeasuredCurve& curve, std::vector<double>& str
   const auto named = [](const measured::MeasuredAxis& axis,
                         std::initializer_list<const char*> words) {
     const std::string name = lower_case(axis.column);
-    return std::any_of(words.begin(), words.end(),
-                       [&](const char* word) { return name.find(word) != std::string::npos; });
+    return std::ranges::any_of(
+        words, [&](const char* word) { return name.find(word) != std::string::npos; });
   };
   const double sign = compression ? -1.0 : 1.0;  // of a strain that is positive in compression
   if (named(curve.x_axis, {"true strain", "true_strain", "log strain", "logarithmic", "hencky"})) {
-    const bool turned = *std::min_element(strain.begin(), strain.end()) >= 0.0;
+    const bool turned = *std::ranges::min_element(strain) >= 0.0;
     for (double& each : strain) each = turned ? sign * std::expm1(sign * each) : std::expm1(each);
     notes.push_back("`" + curve.x_axis.column + "` is taken as the logarithm of the stretch");
   }
   if (!named(curve.y_axis, {"true stress", "true_stress", "cauchy"})) return;
-  const bool turned = *std::min_element(strain.begin(), strain.end()) > -1e-3;
+  const bool turned = *std::ranges::min_element(strain) > -1e-3;
   for (std::size_t i = 0; i < stress.size(); ++i)
     stress[i] /= 1.0 + (turned ? sign : 1.0) * strain[i];
   notes.push_back("`" + curve.y_axis.column +
@@ -244,32 +240,31 @@ fit::Fit uniaxial_fit(const Fit& command, const measured::MeasuredCurve& curve) 
   if (curve.x_axis.dimension == unit::mm.dimension) {
     if (command.height.empty())
       wrong(curve.x_axis,
-            "needs the specimen's height for the strain; give it as `--height "
-            "\"10 mm\"`, or name a column of strains with `--x`");
+            "needs the specimen's height for the strain; give it as `--height \"10 mm\"`, or name "
+            "a column of strains with `--x`");
     const double height = length_of("--height", command.height);
     for (double& each : strain) each /= height;
   } else if (!(curve.x_axis.dimension == Dimension{}) || !curve.x_axis.has_unit) {
     wrong(curve.x_axis,
-          "wants a strain or a length; name another column with `--x`, or give "
-          "`--x-unit 1` (or `%`, `mm`)");
+          "wants a strain or a length; name another column with `--x`, or give `--x-unit 1` (or "
+          "`%`, `mm`)");
   }
   if (curve.y_axis.dimension == unit::N.dimension) {
     if (command.area.empty() && command.diameter.empty())
       wrong(curve.y_axis,
-            "needs the cross-section for the stress; give `--diameter \"20 mm\"` or "
-            "`--area \"300 mm^2\"`, or name a column of stresses with `--y`");
+            "needs the cross-section for the stress; give `--diameter \"20 mm\"` or `--area \"300 "
+            "mm^2\"`, or name a column of stresses with `--y`");
     const double area = area_of(command);
     for (double& each : stress) each /= area;
   } else if (!(curve.y_axis.dimension == unit::kPa.dimension)) {
     wrong(curve.y_axis,
-          "wants a stress or a force; name another column with `--y`, or give "
-          "`--y-unit kPa`");
+          "wants a stress or a force; name another column with `--y`, or give `--y-unit kPa`");
   }
   if (command.platens == "bonded") {
     if (command.diameter.empty() || command.height.empty())
       refuse(
-          "`--platens bonded` wants the specimen's `--diameter` and `--height`, for the ratio "
-          "of its loaded to its free surface");
+          "`--platens bonded` wants the specimen's `--diameter` and `--height`, for the ratio of "
+          "its loaded to its free surface");
     test.shape_factor =
         length_of("--diameter", command.diameter) / (4.0 * length_of("--height", command.height));
     if (command.poisson_ratio >= 0) test.poisson_ratio = command.poisson_ratio;
@@ -498,7 +493,7 @@ std::size_t take_off_recovery(const std::vector<double>& x, std::vector<double>&
     finite.push_back(y[i]);
   }
   if (finite.empty()) return 0;
-  const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
+  const auto [least, most] = std::ranges::minmax_element(finite);
   if (*most - finite[0] < finite[0] - *least) return 0;  // falls as it creeps
   const std::size_t rows = fit::rows_before_recovery(time, finite);
   std::size_t row = 0;
@@ -547,12 +542,11 @@ fit::Fit fitted_over_time(const Fit& command, const measured::MeasuredCurve& who
                             " points are excluded: the curve falls there as in a recovery, which "
                             "`kelvin_voigt_recovery` fits");
   if (limit.from < limit.to)
-    result.notes.insert(result.notes.begin(),
-                        std::to_string(limit.to - limit.from) +
-                            " points are excluded: the load stays at its largest value, as at the "
-                            "limit of a sensor");
-  const auto early = std::count_if(curve.x_written.begin(), curve.x_written.end(),
-                                   [&](double x) { return x < origin.best.first; });
+    result.notes.insert(result.notes.begin(), std::to_string(limit.to - limit.from) +
+                                                  " points are excluded: the load stays at its "
+                                                  "largest value, as at the limit of a sensor");
+  const auto early =
+      std::ranges::count_if(curve.x_written, [&](double x) { return x < origin.best.first; });
   if (early > 0)
     result.notes.insert(result.notes.begin(), std::to_string(early) +
                                                   (early == 1 ? " point is" : " points are") +
@@ -583,11 +577,10 @@ void refuse_unconverged(const fit::Fit& result) {
     throw InputError({}, "these points do not determine every parameter of `" + model_name(result) +
                              "`; fit a model with fewer parameters, or record more points");
   }
-  throw InputError({}, "the search for the parameters of `" + model_name(result) +
-                           "` ended without a minimum (" +
-                           std::string(fit::word(result.termination)) +
-                           "), so that there is no result; choose another model, or a part of "
-                           "the curve");
+  throw InputError(
+      {}, "the search for the parameters of `" + model_name(result) +
+              "` ended without a minimum (" + std::string(fit::word(result.termination)) +
+              "), so that there is no result; choose another model, or a part of the curve");
 }
 
 }  // namespace

@@ -59,9 +59,8 @@ std::vector<fit::Estimate> parameters_of(const std::vector<Row>& rows) {
   std::vector<fit::Estimate> all;
   for (const Row& row : rows)
     for (const fit::Estimate& one : row.fit.parameters)
-      if (std::none_of(all.begin(), all.end(), [&](const fit::Estimate& known) {
-            return column_of(known) == column_of(one);
-          }))
+      if (std::ranges::none_of(
+              all, [&](const fit::Estimate& known) { return column_of(known) == column_of(one); }))
         all.push_back(one);
   return all;
 }
@@ -84,9 +83,9 @@ record::Table row_table(const std::vector<Row>& rows,
     std::vector<record::Cell> cells{static_cast<double>(i + 1), row.file,
                                     std::string(row.reason.empty() ? "fitted" : "failed")};
     for (const fit::Estimate& parameter : parameters) {
-      const auto found =
-          std::find_if(row.fit.parameters.begin(), row.fit.parameters.end(),
-                       [&](const auto& one) { return column_of(one) == column_of(parameter); });
+      const auto found = std::ranges::find_if(row.fit.parameters, [&](const auto& one) {
+        return column_of(one) == column_of(parameter);
+      });
       const fit::Estimate none;
       const fit::Estimate& one = found == row.fit.parameters.end() ? none : *found;
       for (const double value : {one.estimate, one.ci95_low, one.ci95_high})
@@ -135,7 +134,7 @@ std::vector<Population> populations(const std::vector<Row>& rows,
         if (column_of(each) == name && std::isfinite(each.estimate))
           one.sorted.push_back(each.estimate);
     if (one.sorted.empty()) continue;
-    std::sort(one.sorted.begin(), one.sorted.end());
+    std::ranges::sort(one.sorted);
     const auto count = static_cast<double>(one.sorted.size());
     for (const double each : one.sorted) one.mean += each / count;
     double squares = 0.0;
@@ -161,7 +160,7 @@ record::Table population_table(const std::vector<Population>& all) {
 void say_population(const std::vector<Population>& all, const std::vector<Row>& rows,
                     const Talk& talk) {
   const auto failed =
-      std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.reason.empty(); });
+      std::ranges::count_if(rows, [](const Row& row) { return !row.reason.empty(); });
   talk.say(std::to_string(rows.size() - static_cast<std::size_t>(failed)) + " of " +
            std::to_string(rows.size()) + " curves are fitted");
   std::map<std::string, int> reasons;
@@ -239,9 +238,8 @@ void say_what_is_odd(const fit::Fit& result, const Talk& talk) {
         "measurement");
   for (const std::string& note : result.notes) talk.say("note: " + note);
   for (const std::string& warning : result.warnings) talk.warn(warning);
-  const bool told = std::any_of(result.notes.begin(), result.notes.end(), [](const auto& note) {
-    return note.find("excluded") != std::string::npos;
-  });
+  const bool told = std::ranges::any_of(
+      result.notes, [](const auto& note) { return note.find("excluded") != std::string::npos; });
   if (result.excluded > 0 && !told)
     talk.say("note: " + std::to_string(result.excluded) +
              (result.excluded == 1 ? " point is" : " points are") +

@@ -122,10 +122,9 @@ class Table {
       const auto* value = std::get_if<double>(&cell(row, column));
       return value == nullptr ? 0.0 : *value;
     };
-    const auto slow =
-        std::max_element(table_.rows.begin(), table_.rows.end(), [&](const auto& a, const auto& b) {
-          return ms(a, "frame_p50_ms") < ms(b, "frame_p50_ms");
-        });
+    const auto slow = std::ranges::max_element(table_.rows, [&](const auto& a, const auto& b) {
+      return ms(a, "frame_p50_ms") < ms(b, "frame_p50_ms");
+    });
     if (slow == table_.rows.end()) return {"", "no frame was measured"};
     std::pair part{0.0, "collision"};
     for (const auto& [column, name] : {std::pair{"collision_p50_ms", "collision"},
@@ -165,7 +164,7 @@ class Table {
           {name + ": " + stages("paper_", "_ms"), stages("", "_p50_ms"), page::verdicts[1],
            "another computer: " + rounded_text(*paper / sums.back(), 2) + " times as fast"});
     }
-    const bool grows = std::is_sorted(sums.begin(), sums.end());
+    const bool grows = std::ranges::is_sorted(sums);
     table.rows.push_back({"The time grows with the model: " + order,
                           grows ? "so it does" : "it does not", page::verdicts[grows ? 0 : 1],
                           "the same meshes within 3 % of the nodes"});
@@ -245,8 +244,7 @@ bool measure_scenario(const std::string& path, std::vector<std::string> settings
   for (const scenario::Case& one : family.cases) {
     if (one.scenario.uniform())
       throw InputError({path, 0, 0},
-                       "has no finger; `--frames` times a press, so give a scenario with "
-                       "`indent`");
+                       "has no finger; `--frames` times a press, so give a scenario with `indent`");
     const std::string name = family.cases.size() > 1 ? family.name + "/" + one.name : family.name;
     all = table.measure(name, run::build_scene(one, family), nullptr) && all;
   }

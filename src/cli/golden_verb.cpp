@@ -87,8 +87,7 @@ std::vector<KeptResult> kept_results(const std::vector<std::string>& subjects) {
       throw InputError({subject, 0, 0},
                        "has no baseline; write `palpate golden add " + subject + "`");
   }
-  std::sort(found.begin(), found.end(),
-            [](const KeptResult& a, const KeptResult& b) { return a.scenario < b.scenario; });
+  std::ranges::sort(found, {}, &KeptResult::scenario);
   if (found.empty())
     throw InputError({subjects.front(), 0, 0},
                      "has no scenario with a baseline; write `palpate golden add SCENARIO`");
@@ -116,9 +115,9 @@ void keep(const report::CsvFiles& files, const std::string& baseline, const std:
     if (const int at = table.find("outcome"); at >= 0)
       for (const auto& row : table.rows)
         if (row[as_index(at)] == record::Cell(std::string("diverged")))
-          throw InputError({folder, 0, 0},
-                           "would keep a case that diverged; mend the scenario, so that it runs to "
-                           "its end");
+          throw InputError(
+              {folder, 0, 0},
+              "would keep a case that diverged; mend the scenario, so that it runs to its end");
   // Beside it, and then in one exchange.
   const std::string fresh = folder + ".partial";
   fs::remove_all(fresh);
@@ -145,8 +144,7 @@ void keep(const report::CsvFiles& files, const std::string& baseline, const std:
 void refuse_to_machines() {
   if (const char* ci = std::getenv("CI"); ci != nullptr && *ci != '\0')
     refuse(
-        "`CI` is set, and a machine must not replace what it is checked against; "
-        "run this by hand");
+        "`CI` is set, and a machine must not replace what it is checked against; run this by hand");
 }
 
 // The commit of the folder's git checkout, with `-dirty` where files differ from it; empty outside
@@ -169,10 +167,10 @@ int add(const Golden& command, const Talk& talk) {
   refuse_to_machines();
   for (const std::string& scenario : command.subjects)
     if (const KeptResult kept = KeptResult::of(scenario); kept.is_kept() && !command.force)
-      throw InputError({kept.expected, 0, 0},
-                       "holds the baseline of " + one_line(scenario) +
-                           "; see what differs by `palpate golden check`, and give `--force` to "
-                           "replace it");
+      throw InputError(
+          {kept.expected, 0, 0},
+          "holds the baseline of " + one_line(scenario) +
+              "; see what differs by `palpate golden check`, and give `--force` to replace it");
   std::vector<std::string> commits;  // before any file changes
   for (const std::string& scenario : command.subjects)
     commits.push_back(
@@ -226,8 +224,7 @@ int check(const Golden& command, const Talk& talk) {
   }
   talk.progress("");
   report_checks(checks, command.options, talk);
-  const auto equal = std::count_if(checks.begin(), checks.end(),
-                                   [](const compare::Check& one) { return one.equal(); });
+  const auto equal = std::ranges::count_if(checks, &compare::Check::equal);
   talk.say(
       std::to_string(equal) + " of " + std::to_string(checks.size()) +
       (checks.size() == 1 ? " scenario gives its baseline" : " scenarios give their baselines"));

@@ -52,7 +52,7 @@ std::optional<fit::StepOrigin> step_of(const scenario::Scenario& scenario,
   if (const auto* indent = std::get_if<scenario::Indent>(&first); indent && !indent->to.second)
     ramp = indent->to.value / indent->rate;
   const auto largest = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  const auto peak = std::max_element(curve.y.begin(), curve.y.end(), largest);
+  const auto peak = std::ranges::max_element(curve.y, largest);
   if (!ramp || scenario.steps.size() > 2 || curve.y.end() - peak < 4) return std::nullopt;
   return fit::step_origin(curve.x, curve.y, AfterStep::relaxes, *ramp);
 }
@@ -100,21 +100,21 @@ std::string turn_compression(const scenario::Scenario& scenario, measured::Measu
       !(curve.x_axis.dimension == Dimension{}) ||
       !(curve.y_axis.dimension == unit::kPa.dimension) || curve.x.empty())
     return {};
-  const auto [least, most] = std::minmax_element(curve.x.begin(), curve.x.end());
+  const auto [least, most] = std::ranges::minmax_element(curve.x);
   if (*least > -0.1 * *most) {
     if (!curve.x_axis.stretch) return {};
     throw InputError({curve.file, 0, 0},
                      "`" + curve.x_axis.column +
-                         "` is a stretch above 1, which is tension, and "
-                         "the scenario compresses; fit it by `palpate fit --model ogden`");
+                         "` is a stretch above 1, which is tension, and the scenario compresses; "
+                         "fit it by `palpate fit --model ogden`");
   }
   const bool load = curve.y[as_index(least - curve.x.begin())] < 0.0;
   for (double& each : curve.x) each = 0.0 - each;
   if (load)
     for (double& each : curve.y) each = 0.0 - each;
   if (curve.x.front() > curve.x.back()) {
-    std::reverse(curve.x.begin(), curve.x.end());
-    std::reverse(curve.y.begin(), curve.y.end());
+    std::ranges::reverse(curve.x);
+    std::ranges::reverse(curve.y);
   }
   return "`" + curve.x_axis.column + "` is negative in compression; sign changed" +
          (load ? ", and that of `" + curve.y_axis.column + "`" : "");
@@ -234,8 +234,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
            each + ".toml" + (files.size() > 1 ? " and those of the other pairs" : "") + missing);
   talk.next("open", folder.path());
   const auto inseparable = [](const identify::Identified& one) { return one.inseparable; };
-  return std::any_of(found.unknowns.begin(), found.unknowns.end(), inseparable) ? exit_partial
-                                                                                : exit_good;
+  return std::ranges::any_of(found.unknowns, inseparable) ? exit_partial : exit_good;
 }
 
 }  // namespace palpate::cli

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/stop_scope.h"
-#include "base/text.h"
 #include "base/units.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
@@ -75,10 +74,9 @@ int run_live(const Run& command, const Arguments& arguments, const Talk& talk) {
   report::ResultFolder folder(command.out, family,
                               command.force ? Replace::any : Replace::incomplete);
   for (const std::string& rows : folder.rows_left_beside())
-    talk.say(
-        "note: " + rows +
-        " contains the rows of a run that was killed or is still running; it is left as it is, "
-        "`--device replay:` plays it; remove its folder when you no longer need it");
+    talk.say("note: " + rows +
+             " contains the rows of a run that was killed or is still running; it is left as it "
+             "is, `--device replay:` plays it; remove its folder when you no longer need it");
   scene::SpecimenShapes shapes;
   const scenario::Case& one = family.cases.front();
   const scene::Scene scene =

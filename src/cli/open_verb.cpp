@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -41,7 +40,7 @@ std::vector<std::string> reports_below(const fs::path& folder) {
     else if (at->path().filename() == page::file_name)
       found.push_back(fs::relative(at->path(), folder).generic_string());
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -41,9 +41,9 @@ int perform(const Reference& command, const Arguments&, const Talk& talk) {
   print_result(table, table, talk);
   if (!command.out.empty()) {
     if (!command.force && fs::exists(file) && !holds(file.string(), record::csv_text(table)))
-      throw InputError({file.string(), 0, 0},
-                       "is there already and says something else; give another folder, or "
-                       "`--force`");
+      throw InputError(
+          {file.string(), 0, 0},
+          "is there already and says something else; give another folder, or `--force`");
     make_folders(file.parent_path().string());
     write_atomically(file.string(), record::csv_text(table));
   }

@@ -154,9 +154,8 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   talk.say(time_sentence(prepared.seconds, steps, files));
   if (const std::string page = folder.path() + "/report.html"; std::filesystem::exists(page))
     talk.say("The page to look at is " + page + ".");
-  const auto early = std::count_if(records.begin(), records.end(), [](const auto& record) {
-    return record.outcome != record::Outcome::completed;
-  });
+  const auto early = std::ranges::count_if(
+      records, [](const auto& record) { return record.outcome != record::Outcome::completed; });
   talk.say(folder.path() + ": " + std::to_string(records.size()) + " of " +
            count_text(scenes.size(), "case") +
            (early == 0 ? "" : ", " + std::to_string(early) + " ended early") + ran.missing);

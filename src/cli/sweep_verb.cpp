@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -222,9 +221,8 @@ std::string program_word(const Sweep& command) {
     return shell_word(std::filesystem::read_symlink("/proc/self/exe").string());
   for (const char c : command.program)
     if (static_cast<unsigned char>(c) < 0x20)
-      throw InputError({},
-                       "`--program` wants one line; write `--program \"apptainer exec x.sif "
-                       "palpate\"`");
+      throw InputError(
+          {}, "`--program` wants one line; write `--program \"apptainer exec x.sif palpate\"`");
   return command.program;
 }
 
@@ -276,16 +274,16 @@ void check_with_cluster(const Sweep& command, std::size_t tasks, std::size_t cas
     longest = std::max(longest, *limit);
   }
   if (longest > 0.0 && *wanted > longest)
-    throw InputError({}, "`--time " + command.time +
-                             "` is longer than every partition of this cluster allows; give at "
-                             "most `--time " +
-                             std::to_string(static_cast<long>(longest / 60.0)) + "`, in minutes");
+    throw InputError(
+        {}, "`--time " + command.time +
+                "` is longer than every partition of this cluster allows; give at most `--time " +
+                std::to_string(static_cast<long>(longest / 60.0)) + "`, in minutes");
 }
 
 // The folder as a command of a part names it: on one line.
 std::string folder_of_parts(const Sweep& command) {
   std::string folder = std::filesystem::canonical(command.subject).string();
-  if (std::any_of(folder.begin(), folder.end(), [](char c) {
+  if (std::ranges::any_of(folder, [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return byte < 0x20 || byte == 0x7f;
       }))

@@ -57,16 +57,16 @@ std::vector<std::string> Argument::words() const {
 }
 
 const Command* Command::find(const std::string& command) const {
-  const auto found = std::find_if(commands.begin(), commands.end(),
-                                  [&](const Command& one) { return one.name == command; });
+  const auto found = std::ranges::find(commands, command, &Command::name);
   return found == commands.end() ? nullptr : &*found;
 }
 
 Command describe(const CLI::App& app) { return described(app, true); }
 
 std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  std::ranges::transform(text, text.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  });
   return text;
 }
 
@@ -159,8 +159,7 @@ std::string complete(const Command& program, const std::vector<std::string>& wor
   };
   const auto option_named = [&](const std::string& name) -> const Argument* {
     for (const Argument* option : options)
-      if (std::find(option->names.begin(), option->names.end(), name) != option->names.end())
-        return option;
+      if (std::ranges::find(option->names, name) != option->names.end()) return option;
     return nullptr;
   };
   enter(program);
@@ -267,7 +266,7 @@ std::string unknown_option(const CLI::App& app, const CLI::App& verb, const std:
                            const Options& known, std::span<const std::string> after) {
   std::vector<std::string> inners = verb_names(verb);
   std::stable_partition(inners.begin(), inners.end(), [&](const std::string& inner) {
-    return std::find(after.begin(), after.end(), inner) != after.end();
+    return std::ranges::find(after, inner) != after.end();
   });
   for (const std::string& inner : inners)
     if (verb.get_subcommand(inner)->get_option_no_throw(name) != nullptr)
@@ -347,7 +346,7 @@ std::optional<std::string> wrong_word(const CLI::App& app,
       return unknown_option(app, *verb, name, options, std::span(arguments).subspan(i));
     } else if (!word.starts_with("-") && !verb_names(*verb).empty()) {
       const std::vector<std::string> names = verb_names(*verb);
-      if (std::find(names.begin(), names.end(), word) == names.end())
+      if (std::ranges::find(names, word) == names.end())
         return "unknown verb `" + word + "`" + did_you_mean(word, names);
       verb = verb->get_subcommand(word);
       add_options(*verb, options);
@@ -539,7 +538,7 @@ std::string markdown_page(const Command& program, std::string_view further) {
     for (const Argument& argument : arguments) {
       std::string name = operands ? upper(argument.names[0]) : term_of(argument);
       // A `|` would end the cell.
-      std::replace(name.begin(), name.end(), '|', '/');
+      std::ranges::replace(name, '|', '/');
       text += "| `" + name + "` | " + meaning_of(argument) + " |\n";
     }
     return text;

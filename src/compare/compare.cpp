@@ -1,4 +1,5 @@
-// Compares two tables column by column and row by row, and two folders file by file.
+// Compares two tables column by column and row by row, and two folders file by file; writes JUnit
+// XML and GitHub's workflow commands.
 #include "compare/compare.h"
 
 #include <algorithm>
@@ -6,15 +7,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <map>
-#include <optional>
 #include <set>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "base/document.h"
-#include "base/error.h"
 #include "base/fields.h"
 #include "base/index.h"
 #include "base/text.h"
@@ -261,8 +257,8 @@ class Want {
   [[nodiscard]] Window around(double x, double width, const Cell& got) const {
     Window window;
     const auto& xs = course_.x;
-    const auto first = std::lower_bound(xs.begin(), xs.end(), x - width) - xs.begin();
-    const auto last = std::upper_bound(xs.begin(), xs.end(), x + width) - xs.begin();
+    const auto first = std::ranges::lower_bound(xs, x - width) - xs.begin();
+    const auto last = std::ranges::upper_bound(xs, x + width) - xs.begin();
     for (auto i = first; i < last; ++i) {
       const Cell& cell = at(i);
       window.met = window.met || same(got, cell);
@@ -376,12 +372,12 @@ std::string verdict_text(const ColumnComparison& column) {
 int rank_of(const ColumnComparison& column) {
   const std::array curves{"force_N", "strain", "stress_kPa"};
   const bool of_curve = column.worst && !column.worst->x_name.empty();
-  if (of_curve && std::find(curves.begin(), curves.end(), column.name) != curves.end()) return 0;
+  if (of_curve && std::ranges::find(curves, column.name) != curves.end()) return 0;
   if (of_curve) return 2;
   const std::array results{"peak_", "force_at_", "secant_modulus_kPa", "elastic_strain",
                            "creep_half_time_s"};
-  return std::any_of(results.begin(), results.end(),
-                     [&](const char* name) { return column.name.starts_with(name); })
+  return std::ranges::any_of(results,
+                             [&](const char* name) { return column.name.starts_with(name); })
              ? 1
              : 3;
 }
@@ -394,7 +390,7 @@ bool Comparison::rows_equal() const { return rows_got == rows_want || !rows_comp
 
 bool Comparison::equal() const {
   return rows_equal() &&
-         std::all_of(columns.begin(), columns.end(), [](const auto& each) { return each.equal(); });
+         std::ranges::all_of(columns, [](const auto& each) { return each.equal(); });
 }
 
 Comparison compare(const Table& got, const Table& want, const Tolerances& tolerances) {
@@ -496,7 +492,7 @@ std::vector<Cell> row_without_column(const std::string& file, const char* state)
 }  // namespace
 
 bool FolderComparison::equal() const {
-  return std::all_of(files.begin(), files.end(), [](const auto& each) { return each.equal(); });
+  return std::ranges::all_of(files, [](const auto& each) { return each.equal(); });
 }
 
 Tables tables_below(const std::string& folder) {
@@ -568,8 +564,7 @@ std::vector<Item> items_of(const FolderComparison& comparison) {
 std::vector<Item> differences(const FolderComparison& comparison) {
   std::vector<Item> all = items_of(comparison);
   std::erase_if(all, [](const Item& item) { return item.state != Item::State::failed; });
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Item& a, const Item& b) { return a.rank < b.rank; });
+  std::ranges::stable_sort(all, {}, &Item::rank);
   return all;
 }
 
@@ -590,8 +585,8 @@ std::string headline(const FolderComparison& comparison) {
       count_text(columns, "column") + (files == 1 ? "" : " of " + count_text(files, "file"));
   if (comparison.equal()) return "equal: " + all;
   const std::vector<Item> found = differences(comparison);
-  const auto differing = std::count_if(found.begin(), found.end(),
-                                       [](const Item& item) { return item.column != nullptr; });
+  const auto differing =
+      std::ranges::count_if(found, [](const Item& item) { return item.column != nullptr; });
   const Item& first = found.front();
   std::string text = "DIFFERS in " + std::to_string(differing) + " of " + all + ", in " +
                      (first.column != nullptr ? one_line(first.name)
@@ -639,6 +634,101 @@ record::Table comparison_table(const FolderComparison& comparison) {
       table.rows.push_back(row_of(file.file, column));
   }
   return table;
+}
+
+namespace {
+
+std::vector<Item> items_of(const Check& check) {
+  if (!check.error.empty()) return {{Item::State::error, "", "run", check.error}};
+  return items_of(check.comparison);
+}
+
+std::string counts(const std::vector<Item>& items) {
+  const auto count = [&](Item::State state) {
+    std::size_t number = 0;
+    for (const Item& item : items) number += item.state == state ? 1U : 0U;
+    return std::to_string(number);
+  };
+  return " tests=\"" + std::to_string(items.size()) + "\" failures=\"" +
+         count(Item::State::failed) + "\" errors=\"" + count(Item::State::error) + "\" skipped=\"" +
+         count(Item::State::skipped) + "\"";
+}
+
+std::string test_case(const Check& check, const Item& item) {
+  std::string text = "    <testcase classname=\"" +
+                     escaped(check.name + (item.file.empty() ? "" : "/" + item.file)) +
+                     "\" name=\"" + escaped(item.name) + "\"";
+  const std::string message = " message=\"" + escaped(item.sentence()) + "\"/></testcase>\n";
+  switch (item.state) {
+    case Item::State::good: return text + "/>\n";
+    case Item::State::skipped: return text + "><skipped/></testcase>\n";
+    case Item::State::failed: return text + "><failure type=\"difference\"" + message;
+    case Item::State::error: return text + "><error type=\"no result\"" + message;
+  }
+  return text;
+}
+
+enum class Part { property, message };
+
+// Escapes as GitHub's own toolkit does; properties end at a comma or a colon.
+std::string command_text(const std::string& text, Part part) {
+  std::string safe;
+  for (const char letter : text) {
+    switch (letter) {
+      case '%': safe += "%25"; break;
+      case '\r': safe += "%0D"; break;
+      case '\n': safe += "%0A"; break;
+      case ':': safe += part == Part::property ? "%3A" : ":"; break;
+      case ',': safe += part == Part::property ? "%2C" : ","; break;
+      default: safe += letter;
+    }
+  }
+  return safe;
+}
+
+// The line of the worst row in the wanted file, whose header is line 1; 0 in a tube, whose rows are
+// not those of the wanted file, and where there is none.
+std::size_t line_of(const Check& check, const Item& item) {
+  if (item.column == nullptr || !item.column->worst) return 0;
+  for (const FileComparison& file : check.comparison.files)
+    if (file.file == item.file && file.comparison.rows_compared) return item.column->worst->row + 1;
+  return 0;
+}
+
+}  // namespace
+
+std::string junit_text(std::span<const Check> checks) {
+  std::vector<Item> all;
+  std::string suites;
+  for (const Check& check : checks) {
+    const std::vector<Item> items = items_of(check);
+    all.insert(all.end(), items.begin(), items.end());
+    suites += "  <testsuite name=\"" + escaped(check.name) + "\"" + counts(items) + ">\n";
+    for (const Item& item : items) suites += test_case(check, item);
+    suites += "  </testsuite>\n";
+  }
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"palpate\"" + counts(all) +
+         ">\n" + suites + "</testsuites>\n";
+}
+
+std::string github_annotations(std::span<const Check> checks) {
+  std::string text;
+  for (const Check& check : checks) {
+    if (check.equal()) continue;
+    const std::vector<Item> bad =
+        check.error.empty() ? differences(check.comparison) : items_of(check);
+    const Item& item = bad.front();
+    std::filesystem::path file(check.error.empty() ? check.want : check.name);
+    if (!item.file.empty() && !check.one_file) file /= item.file;
+    text += "::error file=" + command_text(file.generic_string(), Part::property);
+    if (const std::size_t line = line_of(check, item); line > 0)
+      text += ",line=" + std::to_string(line);
+    const std::string more =
+        bad.size() == 1 ? "" : " (" + std::to_string(bad.size()) + " differences in all)";
+    text += ",title=" + command_text("palpate: " + check.name, Part::property) +
+            "::" + command_text(item.sentence() + more, Part::message) + "\n";
+  }
+  return text;
 }
 
 }  // namespace palpate::compare

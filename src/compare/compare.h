@@ -1,11 +1,13 @@
 // Comparison of two tables, which columns differ and in which row most, and of two result folders,
-// every CSV file with the file of the same name.
+// every CSV file with the file of the same name; and comparisons as forges and build servers show
+// them, in JUnit XML and annotations.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -162,5 +164,27 @@ struct Item {
 // missing, extra), rows_differing, and row, case, x_name, x, got, want, relative and allowed of the
 // worst row. A file in one folder only, and different numbers of rows, have a row without a column.
 [[nodiscard]] record::Table comparison_table(const FolderComparison& comparison);
+
+// The comparison of one result with what is wanted, or the reason why there is none.
+struct Check {
+  std::string name;                  // of the result or the scenario
+  std::string want;                  // path of the wanted folder or file
+  bool one_file = false;             // whether it is a file
+  FolderComparison comparison = {};  // empty if `error` is not
+  std::string error = {};            // a sentence
+
+  [[nodiscard]] bool equal() const { return error.empty() && comparison.equal(); }
+};
+
+// JUnit XML: a test suite per check and a test case per column, whose `classname` is the name of
+// the check and the file. A column that differs has a failure, whose message names the file, the
+// case, the row and both values; an ignored column is skipped; a check with an error has one test
+// case, with that error. Contains no time, so that the same comparison gives the same bytes.
+[[nodiscard]] std::string junit_text(std::span<const Check> checks);
+
+// One line per check that is not equal, in the form of GitHub's workflow commands, `::error
+// file=...`: its first difference by rank_of(), with the number of further ones. The file is the
+// wanted one, the line that of the worst row. Each line ends with `\n`.
+[[nodiscard]] std::string github_annotations(std::span<const Check> checks);
 
 }  // namespace palpate::compare

@@ -29,9 +29,7 @@ void Detector::refit(std::span<const Vec3> displacement) {
 
 bool Detector::nearest_around(const geometry::Near& near) const {
   const auto distance = [&](int triangle) {
-    const auto found = std::lower_bound(
-        near_.begin(), near_.end(), triangle,
-        [](const geometry::Near& one, int number) { return one.triangle < number; });
+    const auto found = std::ranges::lower_bound(near_, triangle, {}, &geometry::Near::triangle);
     return found != near_.end() && found->triangle == triangle ? &*found : nullptr;
   };
   for (const int corner : surface_->surface().triangles[as_index(near.triangle)])
@@ -52,9 +50,8 @@ void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> dis
   tree_.within(centre, radius, near_);
   // A centre deeper inside than the radius has no triangle within the radius.
   if (near_.empty()) near_.push_back(tree_.nearest(centre));
-  const auto first = std::min_element(near_.begin(), near_.end(), [](const auto& a, const auto& b) {
-    return a.distance_squared < b.distance_squared;
-  });
+  const auto first = std::ranges::min_element(
+      near_, [](const auto& a, const auto& b) { return a.distance_squared < b.distance_squared; });
   for (const geometry::Near& near : near_) {
     if (!nearest_around(near)) continue;
     const Vec3 carried =
@@ -67,7 +64,7 @@ void Detector::find(const Vec3& centre, double radius, std::span<const Vec3> dis
     // If the surface has taken the shape of the sphere, one contact has many minima. Two minima are
     // the same contact if the search from the foot of one, with the centre of the other, ends at
     // the other's foot. Only the deepest is kept.
-    const auto known = std::find_if(feet.begin(), feet.end(), [&](const auto& other) {
+    const auto known = std::ranges::find_if(feet, [&](const auto& other) {
       const double same = 1e-6 * radius;
       if ((other.position - closest_point.position).norm() <= same) return true;
       if (displacement.empty()) return false;

@@ -421,8 +421,8 @@ LayerSurfaceDisplacement::LayerSurfaceDisplacement(const Layer& layer, double fa
 }
 
 double LayerSurfaceDisplacement::gamma(double rho) const {
-  const auto table = std::find_if(tables_.begin(), tables_.end(),
-                                  [&](const Table& one) { return rho < one.last_rho; });
+  const auto table =
+      std::ranges::find_if(tables_, [&](const Table& one) { return rho < one.last_rho; });
   if (table == tables_.end()) return 1.0 / rho;
   const double width = table->last_rho / table->pieces;
   const double at = rho / width;

@@ -180,7 +180,7 @@ void Spreader::spread(const Patch& patch, Spread& spread) {
     share({triangle, Vec3(seen.weight - second - third, second, third)}, 1.0);
     seen.weight = seen.weight_x = seen.weight_y = 0.0;
   }
-  std::sort(touched_.begin(), touched_.end());
+  std::ranges::sort(touched_);
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   spread.vertices.clear();
   spread.shares.clear();

@@ -126,8 +126,7 @@ Relaxation sorted(const Relaxation& relaxation) {
   assert(relaxation.retardation_time >= 0.0);
   Relaxation result{.branches = {}, .retardation_time = relaxation.retardation_time};
   std::vector<Branch> given = relaxation.branches;
-  std::sort(given.begin(), given.end(),
-            [](const Branch& a, const Branch& b) { return a.time < b.time; });
+  std::ranges::sort(given, {}, &Branch::time);
   for (const Branch& branch : given) {
     assert(branch.time > 0.0 && branch.ratio >= 0.0);
     if (branch.ratio == 0.0) continue;
@@ -435,8 +434,8 @@ void ViscousContact::grow(double elastic_force) {
   const double place = inner_level + sum(edge_modes_);
   if (depth_ <= place) return;
   if (free_.empty()) {
-    std::fill(edge_modes_.begin(), edge_modes_.end(), 0.0);
-    std::fill(branches_.begin(), branches_.end(), 0.0);
+    std::ranges::fill(edge_modes_, 0.0);
+    std::ranges::fill(branches_, 0.0);
     lay_edge(depth_, elastic_force);
     return;
   }

@@ -53,12 +53,6 @@ Json events_json(const Events& events) {
 
 }  // namespace
 
-const char* link_state_text(LinkState state) {
-  constexpr auto words = words_of<LinkState>(
-      {{"open", ""}, {"armed", ""}, {"stale", ""}, {"tripped", ""}, {"lost", ""}, {"closed", ""}});
-  return word(words, state);
-}
-
 void Health::count(double now, const Sample& sample) {
   if (frames == 0) last_fresh_ = now;
   ++frames;
@@ -175,7 +169,7 @@ std::string health_json(const Identity& identity, const Limits& limits, const Tr
   json["compute"] = histogram_json(health.compute);
   Json passed = Json::array();
   for (const Transition& one : health.transitions()) {
-    passed.push_back({{"time_s", one.time}, {"state", link_state_text(one.to)}});
+    passed.push_back({{"time_s", one.time}, {"state", name_of<LinkState::closed>(one.to)}});
     if (one.why != Trip::none) passed.back()["why"] = trip_text(one.why);
     if (one.fault != Fault::none) passed.back()["fault"] = fault_text(one.fault);
   }

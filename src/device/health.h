@@ -13,7 +13,6 @@
 namespace palpate::device {
 
 enum class LinkState : std::uint8_t { open, armed, stale, tripped, lost, closed };
-[[nodiscard]] const char* link_state_text(LinkState state);
 
 struct Transition {
   double time = 0.0;  // s, since the start

@@ -113,17 +113,16 @@ void Inverse3::greet(const std::string& wanted_id) {
   const auto snapshot = inverse3::parse_snapshot(first.text);
   if (!snapshot)
     throw LinkError(
-        "palpate: the service's first message is not JSON; is this its simulation "
-        "port (10001)?");
+        "palpate: the service's first message is not JSON; is this its simulation port (10001)?");
   if (snapshot->arms.empty())
     throw LinkError(
-        "palpate: the service runs, but reports no Inverse3; connect and calibrate "
-        "it, and check that no other program uses it");
+        "palpate: the service runs, but reports no Inverse3; connect and calibrate it, and check "
+        "that no other program uses it");
   std::string ids;
   for (const inverse3::Arm& arm : snapshot->arms) ids += (ids.empty() ? "`" : ", `") + arm.id + "`";
-  const auto chosen = std::find_if(
-      snapshot->arms.begin(), snapshot->arms.end(),
-      [&](const inverse3::Arm& arm) { return wanted_id.empty() || arm.id == wanted_id; });
+  const auto chosen = std::ranges::find_if(snapshot->arms, [&](const inverse3::Arm& arm) {
+    return wanted_id.empty() || arm.id == wanted_id;
+  });
   if (chosen == snapshot->arms.end())
     throw LinkError("palpate: the service has no arm `" + wanted_id + "`, only " + ids +
                     "; write one of these after the `/`");
@@ -160,8 +159,8 @@ void Inverse3::accept(const inverse3::Arm& arm) {
   if (!arm.firmware.empty()) identity_.notes.push_back("the arm's own firmware is " + arm.firmware);
   if (arm.shifted)
     identity_.notes.push_back(
-        "the service shifts the arm's coordinates; heights, also that of "
-        "`--surface`, are shifted as well");
+        "the service shifts the arm's coordinates; heights, also that of `--surface`, are shifted "
+        "as well");
   const auto refuse = [&](const std::string& why, const std::string& remedy) {
     const std::string sentence = "the arm " + arm.id + " " + why + "; " + remedy;
     if (purpose_ == Purpose::command) throw LinkError("palpate: " + sentence);

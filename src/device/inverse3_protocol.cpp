@@ -351,7 +351,7 @@ bool has_probe(std::string_view version) {
 }
 
 bool usable_id(std::string_view id) {
-  return !id.empty() && id.size() < 32 && std::all_of(id.begin(), id.end(), [](char c) {
+  return !id.empty() && id.size() < 32 && std::ranges::all_of(id, [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
            c == '_';
   });

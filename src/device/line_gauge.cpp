@@ -318,9 +318,9 @@ void check_unit(const Node& file, const LinePattern& pattern, Measure measure, c
     throw InputError(place_of(file, key),
                      "has no effect, because the pattern has no `{" + name + "}`; leave it out");
   if (!given.empty() && pattern.has_unit(measure))
-    throw InputError(place_of(file, key),
-                     "has no effect, because the pattern takes the unit from "
-                     "the lines; leave it out");
+    throw InputError(
+        place_of(file, key),
+        "has no effect, because the pattern takes the unit from the lines; leave it out");
   if (!given.empty() && !unit_of(measure, given))
     throw InputError(place_of(file, key),
                      "`" + given + "` is no unit of it; write " + known_units(measure));

@@ -27,7 +27,7 @@ struct Columns {
 
 Columns columns_of(const std::vector<std::string>& header, const std::string& file) {
   const auto find = [&](std::string_view name) {
-    const auto at = std::find(header.begin(), header.end(), name);
+    const auto at = std::ranges::find(header, name);
     return at == header.end() ? -1 : static_cast<int>(at - header.begin());
   };
   Columns columns;

@@ -450,11 +450,10 @@ void Mark10::refuse_silence() const {
   const std::string on = "palpate: on `" + path_ + "` ";
   if (serial_.port.lost()) throw LinkError(on + "the device hung up; check its cable");
   if (serial_.first_bytes.empty())
-    throw LinkError(
-        on +
-        "nothing answers; switch the stand on, set CONTROL to CONSOLE, PC Control to on "
-        "and the rate to " +
-        std::to_string(mark10::baud) + " baud, and check the cable");
+    throw LinkError(on +
+                    "nothing answers; switch the stand on, set CONTROL to CONSOLE, PC Control to "
+                    "on and the rate to " +
+                    std::to_string(mark10::baud) + " baud, and check the cable");
   // At another rate most bytes are not text; a fifth of them is enough for the diagnosis.
   if (garbage_share(serial_.first_bytes) > 0.2)
     throw LinkError(on + "garbage answers, as at a wrong baud rate; set the stand and its gauge " +

@@ -119,7 +119,7 @@ std::string_view error_text(int number) {
 }
 
 std::optional<Settings> parse_settings(std::string_view line) {
-  if (std::count(line.begin(), line.end(), ';') < 4) return std::nullopt;
+  if (std::ranges::count(line, ';') < 4) return std::nullopt;
   Settings settings;
   for (const std::string& one : split(line, ';')) {
     std::string token = trimmed(one);
@@ -196,7 +196,7 @@ PairReader::Step PairReader::take(std::string_view line) {
   if (const auto force = newtons(*quantity)) {
     Pair pair;
     pair.force = *force;
-    std::copy(quantity->unit.begin(), quantity->unit.end(), pair.force_unit.begin());
+    std::ranges::copy(quantity->unit, pair.force_unit.begin());
     if (travel_before) {
       order_ = Order::travel_first;
       step.pair = pair;

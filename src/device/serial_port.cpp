@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <utility>
 
 #include "base/error.h"
 #include "base/index.h"
@@ -35,9 +34,9 @@ namespace {
     case ENOENT:
     case ENODEV:
     case ENXIO:
-      refuse(path,
-             "is not there; plug the device in and look for it with `ls /dev/ttyUSB* "
-             "/dev/ttyACM*`");
+      refuse(
+          path,
+          "is not there; plug the device in and look for it with `ls /dev/ttyUSB* /dev/ttyACM*`");
     case EACCES:
     case EPERM:
       refuse(path,
@@ -100,8 +99,7 @@ Descriptor lock_for(const std::string& path, double until) {
 }  // namespace
 
 bool is_known_rate(int baud) {
-  return std::any_of(rates.begin(), rates.end(),
-                     [&](const Rate& rate) { return rate.baud == baud; });
+  return std::ranges::any_of(rates, [&](const Rate& rate) { return rate.baud == baud; });
 }
 
 std::string known_rates() {
@@ -209,7 +207,7 @@ void LineBuffer::feed(std::string_view bytes) {
   std::memmove(bytes_.data(), bytes_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(end_));
+  std::ranges::copy(bytes, bytes_.begin() + static_cast<std::ptrdiff_t>(end_));
   end_ += bytes.size();
 }
 
@@ -272,7 +270,7 @@ std::string_view without_outer_spaces(std::string_view text) {
 
 double garbage_share(std::string_view bytes) {
   if (bytes.empty()) return 0.0;
-  const auto odd = std::count_if(bytes.begin(), bytes.end(), [](char c) {
+  const auto odd = std::ranges::count_if(bytes, [](char c) {
     return !is_end(c) &&
            (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e);
   });

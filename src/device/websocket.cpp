@@ -22,7 +22,6 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/index.h"
 #include "device/clock.h"
 #include "device/tap.h"
 #include "device/websocket.h"
@@ -288,7 +287,7 @@ bool WebSocket::send(std::string_view text) {
   Implementation& it = *it_;
   it.run_ready();
   if (it.failure || it.writing || text.size() > it.outgoing.size()) return false;
-  std::copy(text.begin(), text.end(), it.outgoing.begin());
+  std::ranges::copy(text, it.outgoing.begin());
   it.writing = true;
   if (it.tap) it.tap->note(Tap::Way::sent, text);
   it.stream.async_write(net::buffer(it.outgoing.data(), text.size()),

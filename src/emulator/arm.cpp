@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "emulator/files.h"
-
 namespace emulator {
 namespace {
 
@@ -262,12 +260,12 @@ bool Arm::take_events_end() { return std::exchange(events_end_, false); }
 
 std::string Arm::summary() const {
   std::array<char, 512> text{};
-  std::snprintf(text.data(), text.size(),
-                "{\"summary\":{\"messages\":%lld,\"time_s\":%.9g,\"clamped\":%lld,"
-                "\"greatest_force_N\":%.9g,\"work_by_device_J\":%.9g,"
-                "\"most_work_by_device_J\":%.9g,\"most_hand_energy_J\":%.9g}}",
-                static_cast<long long>(messages_), seconds(now_), static_cast<long long>(clamped_),
-                greatest_force_, hand_.work, hand_.most_work, hand_.most_energy);
+  std::snprintf(
+      text.data(), text.size(),
+      "{\"summary\":{\"messages\":%lld,\"time_s\":%.9g,\"clamped\":%lld,\"greatest_force_N\":%.9g,"
+      "\"work_by_device_J\":%.9g,\"most_work_by_device_J\":%.9g,\"most_hand_energy_J\":%.9g}}",
+      static_cast<long long>(messages_), seconds(now_), static_cast<long long>(clamped_),
+      greatest_force_, hand_.work, hand_.most_work, hand_.most_energy);
   return text.data();
 }
 

@@ -142,8 +142,7 @@ void fields(FieldVisitor& visitor, Fault& fault, std::span<const FaultKind> kind
                  "number of replies to spoil",
                  {any || fault.life == Life::replies, "with a kind that spoils replies"}},
                 fault.replies, at_least(0));
-  const auto value = std::find_if(values.begin(), values.end(),
-                                  [&](const ValueOf& each) { return each.kind == fault.kind; });
+  const auto value = std::ranges::find(values, fault.kind, &ValueOf::kind);
   if (value != values.end()) fault.value = value->otherwise;
   visitor.quantity(
       {"value", "how much", {any || value != values.end(), "with a kind whose effect has a size"}},
@@ -198,7 +197,7 @@ std::vector<Fault> Faults::begin(std::int64_t now, std::int64_t messages) {
 }
 
 bool Faults::lasts(std::string_view kind, std::int64_t now) const {
-  return std::any_of(active_.begin(), active_.end(), [&](const Active& active) {
+  return std::ranges::any_of(active_, [&](const Active& active) {
     return active.fault.kind == kind && active.fault.life == Life::lasting &&
            (!active.until || now < *active.until);
   });

@@ -2,7 +2,6 @@
 #include "emulator/files.h"
 
 #include "base/error.h"
-#include "base/fields.h"
 #include "base/files.h"
 #include "base/text.h"
 

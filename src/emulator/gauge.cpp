@@ -2,7 +2,6 @@
 #include "emulator/gauge.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 

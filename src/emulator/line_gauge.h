@@ -42,8 +42,7 @@ struct LineGaugeSettings {
 
 // The tables [gauge] and [[waypoint]].
 void fields(palpate::FieldVisitor& visitor, LineGaugeSettings& settings);
-// Reads these tables; keys that the file does not name keep their values.
-// Throws InputError.
+// Reads these tables; keys that the file does not name keep their values. Throws InputError.
 void read_line_gauge(const std::string& path, LineGaugeSettings& settings);
 
 class LineGauge : public SerialDevice {

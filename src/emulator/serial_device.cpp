@@ -121,20 +121,67 @@ class Pty {
  public:
   // Opens a pair, raw, at `baud`; a `link` that is not empty becomes a symbolic link to the port.
   // Throws InputError if the pair cannot be opened, `baud` is unknown, or `link` is another file.
-  Pty(int baud, const std::string& link);
-  ~Pty();
+  Pty(int baud, const std::string& link) : baud_(baud), link_(link) {
+    const speed_t code = code_of(baud);
+    master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    std::array<char, 128> name{};
+    if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
+        ::ptsname_r(master_, name.data(), name.size()) != 0)
+      throw InputError(palpate::Place{},
+                       "no pseudo-terminal can be opened here; is /dev/pts mounted?");
+    path_ = name.data();
+    slave_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    termios line{};
+    if (slave_ < 0 || ::tcgetattr(slave_, &line) != 0)
+      throw InputError({path_}, "the port cannot be opened; is /dev/pts mounted?");
+    ::cfmakeraw(&line);
+    ::cfsetspeed(&line, code);
+    ::tcsetattr(slave_, TCSANOW, &line);
+    if (!link_.empty()) make_link(link_, path_);
+  }
+  ~Pty() {
+    if (master_ >= 0) ::close(master_);
+    if (slave_ >= 0) ::close(slave_);
+    std::error_code ignored;
+    if (!link_.empty() && std::filesystem::is_symlink(link_, ignored))
+      std::filesystem::remove(link_, ignored);
+  }
   Pty(const Pty&) = delete;
   Pty& operator=(const Pty&) = delete;
 
   [[nodiscard]] int descriptor() const { return master_; }
   [[nodiscard]] const std::string& path() const { return path_; }
+
   // Whether the port still has the rate with which it was opened.
-  [[nodiscard]] bool same_rate() const;
-  [[nodiscard]] std::string read_all() const;
-  // Whether the client has read all that was written.
-  [[nodiscard]] bool is_read() const;
+  [[nodiscard]] bool same_rate() const {
+    termios line{};
+    if (::tcgetattr(master_, &line) != 0) return true;
+    const speed_t code = code_of(baud_);
+    return ::cfgetospeed(&line) == code && ::cfgetispeed(&line) == code;
+  }
+
+  [[nodiscard]] std::string read_all() const {
+    std::string bytes;
+    std::array<char, 256> chunk{};
+    for (;;) {
+      const ssize_t got = ::read(master_, chunk.data(), chunk.size());
+      if (got <= 0) return bytes;
+      bytes.append(chunk.data(), palpate::as_index(got));
+    }
+  }
+
+  // Whether the client has read all that was written: poll(2) of its end waits for bytes that the
+  // system still carries there (n_tty_poll).
+  [[nodiscard]] bool is_read() const {
+    pollfd unread{slave_, POLLIN, 0};
+    return ::poll(&unread, 1, 0) == 0;
+  }
+
   // Returns the number of bytes that were accepted.
-  [[nodiscard]] std::size_t write_some(const std::string& bytes) const;
+  [[nodiscard]] std::size_t write_some(const std::string& bytes) const {
+    const ssize_t written = ::write(master_, bytes.data(), bytes.size());
+    return written < 0 ? 0 : palpate::as_index(written);
+  }
 
  private:
   int baud_;
@@ -143,61 +190,6 @@ class Pty {
   int master_ = -1;
   int slave_ = -1;  // kept open, so that clients can disconnect and reconnect
 };
-
-Pty::Pty(int baud, const std::string& link) : baud_(baud), link_(link) {
-  const speed_t code = code_of(baud);
-  master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  std::array<char, 128> name{};
-  if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
-      ::ptsname_r(master_, name.data(), name.size()) != 0)
-    throw InputError(palpate::Place{},
-                     "no pseudo-terminal can be opened here; is /dev/pts mounted?");
-  path_ = name.data();
-  slave_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  termios line{};
-  if (slave_ < 0 || ::tcgetattr(slave_, &line) != 0)
-    throw InputError({path_}, "the port cannot be opened; is /dev/pts mounted?");
-  ::cfmakeraw(&line);
-  ::cfsetspeed(&line, code);
-  ::tcsetattr(slave_, TCSANOW, &line);
-  if (!link_.empty()) make_link(link_, path_);
-}
-
-Pty::~Pty() {
-  if (master_ >= 0) ::close(master_);
-  if (slave_ >= 0) ::close(slave_);
-  std::error_code ignored;
-  if (!link_.empty() && std::filesystem::is_symlink(link_, ignored))
-    std::filesystem::remove(link_, ignored);
-}
-
-bool Pty::same_rate() const {
-  termios line{};
-  if (::tcgetattr(master_, &line) != 0) return true;
-  const speed_t code = code_of(baud_);
-  return ::cfgetospeed(&line) == code && ::cfgetispeed(&line) == code;
-}
-
-std::string Pty::read_all() const {
-  std::string bytes;
-  std::array<char, 256> chunk{};
-  for (;;) {
-    const ssize_t got = ::read(master_, chunk.data(), chunk.size());
-    if (got <= 0) return bytes;
-    bytes.append(chunk.data(), palpate::as_index(got));
-  }
-}
-
-// poll(2) of the client's end waits for bytes that the system still carries there (n_tty_poll).
-bool Pty::is_read() const {
-  pollfd unread{slave_, POLLIN, 0};
-  return ::poll(&unread, 1, 0) == 0;
-}
-
-std::size_t Pty::write_some(const std::string& bytes) const {
-  const ssize_t written = ::write(master_, bytes.data(), bytes.size());
-  return written < 0 ? 0 : palpate::as_index(written);
-}
 
 Nanoseconds monotonic() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);

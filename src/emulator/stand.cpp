@@ -6,9 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <utility>
-#include <vector>
 
 #include "emulator/files.h"
 

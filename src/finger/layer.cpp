@@ -31,8 +31,8 @@ std::vector<Side> outline(const geometry::Surface& surface, const Vec3& centre) 
   std::vector<Point> points;
   for (const Vec3& vertex : surface.vertices)
     points.push_back({vertex.x() - centre.x(), vertex.y() - centre.y()});
-  std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::ranges::sort(
+      points, [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<Side> sides;
   for (int half = 0; half < 2; ++half) {
     std::vector<Point> chain;
@@ -55,7 +55,7 @@ std::vector<Side> outline(const geometry::Surface& surface, const Vec3& centre) 
       sides.push_back({normal, reach});
       sides.push_back({{normal.x, -normal.y}, reach});
     }
-    std::reverse(points.begin(), points.end());
+    std::ranges::reverse(points);
   }
   return sides;
 }

@@ -88,7 +88,7 @@ class AdhesiveFit {
     const bool tilt = test_.baseline == ContactTest::BaselineChoice::tilt;
     const bool none = test_.baseline == ContactTest::BaselineChoice::none;
     const std::size_t count = none ? 3 : tilt ? 4 + 1 : 4;
-    const auto [low, high] = std::minmax_element(curve_.depth.begin(), curve_.depth.end());
+    const auto [low, high] = std::ranges::minmax_element(curve_.depth);
     const double range = *high - *low;
     const std::array guess = guessed();
     std::vector<double> start{1.0, 1.0, guess[2] / range, none ? 0.0 : level_, 0.0};
@@ -161,8 +161,7 @@ class AdhesiveFit {
                each->begin() + static_cast<std::ptrdiff_t>(part.to)};
     // From the deepest row to the free ones, as the tip withdraws.
     if (curve_.depth.front() < curve_.depth.back())
-      for (std::vector<double>* each : {&curve_.depth, &curve_.force})
-        std::reverse(each->begin(), each->end());
+      for (std::vector<double>* each : {&curve_.depth, &curve_.force}) std::ranges::reverse(*each);
     fit_.excluded = static_cast<int>(depth.size() - finite);
     leave_out(fit_, finite - curve_.depth.size(),
               test_.way == ContactTest::Way::approach
@@ -177,7 +176,7 @@ class AdhesiveFit {
   // more than 70 % of it. (JKR's contact opens at 5/9 of the pull-off force.)
   void divide() {
     const std::vector<double>& force = curve_.force;
-    const auto least = std::min_element(force.begin(), force.end());
+    const auto least = std::ranges::min_element(force);
     const auto at = static_cast<std::size_t>(least - force.begin());
     const bool zeroed = test_.baseline == ContactTest::BaselineChoice::none;
     const auto some = static_cast<std::ptrdiff_t>(std::max<std::size_t>(3, force.size() / 10));
@@ -195,14 +194,15 @@ class AdhesiveFit {
                                rounded_text(noise * scale_) +
                                " N; give the way back of the curve, or fit `hertz`");
     if (!zeroed && (free < 3 || (!jumps(at, end) && drifts(end))))
-      throw InputError({},
-                       "the curve ends before the contact opens, so that the zero of the force "
-                       "is not known; record rows after the pull-off, or give `--baseline "
-                       "none` if the force is zeroed");
+      throw InputError(
+          {},
+          "the curve ends before the contact opens, so that the zero of the force is not known; "
+          "record rows after the pull-off, or give `--baseline none` if the force is zeroed");
     if (end < 5)
-      throw InputError({}, "only " + std::to_string(end) +
-                               " points are in contact, too few for E, w and the contact point; "
-                               "record more points");
+      throw InputError(
+          {},
+          "only " + std::to_string(end) +
+              " points are in contact, too few for E, w and the contact point; record more points");
   }
 
   // Whether the force comes back from one row to the next, as where a contact opens.
@@ -225,8 +225,8 @@ class AdhesiveFit {
 
   // E* (Pa), w (J/m^2) and h_0 (m), from the deepest row, the least force and its depth.
   [[nodiscard]] std::array<double, 3> guessed() const {
-    const auto at = static_cast<std::size_t>(
-        std::min_element(curve_.force.begin(), curve_.force.end()) - curve_.force.begin());
+    const auto at =
+        static_cast<std::size_t>(std::ranges::min_element(curve_.force) - curve_.force.begin());
     const double pull = pull_ * scale_;
     const double most = std::max((curve_.force.front() - level_) * scale_, 0.1 * pull);
     const double way = std::max(curve_.depth.front() - curve_.depth[at],
@@ -294,10 +294,9 @@ Fit fit_adhesive(std::span<const double> depth, std::span<const double> force,
   else
     fit.warnings.push_back(number + ", which asks for " + fitting);
   if (tabor > low_tabor && tabor < high_tabor)
-    fit.warnings.push_back(number + ": between " + rounded_text(low_tabor) + " and " +
-                           rounded_text(high_tabor) +
-                           " neither law holds, and w is wrong by up to a third, which its "
-                           "interval does not contain");
+    fit.warnings.push_back(
+        number + ": between " + rounded_text(low_tabor) + " and " + rounded_text(high_tabor) +
+        " neither law holds, and w is wrong by up to a third, which its interval does not contain");
   return fit;
 }
 

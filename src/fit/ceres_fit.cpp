@@ -261,8 +261,7 @@ std::optional<Start> start_of(std::span<const double> y, const Separable& curve)
   for (const std::vector<double>& shapes : curve.starts)
     if (auto start = start_at(y, columns, shapes)) all.push_back(*std::move(start));
   if (all.empty()) return std::nullopt;
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Start& a, const Start& b) { return a.squares < b.squares; });
+  std::ranges::stable_sort(all, {}, &Start::squares);
   Start best = all.front();
   const double rounding = 1e-26 * static_cast<double>(y.size());
   for (std::size_t i = 0; i < std::min(curve.minima, all.size()) && best.squares > rounding; ++i)

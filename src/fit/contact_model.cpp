@@ -30,8 +30,8 @@ PressRows averaged(const PressRows& rows) {
   if (n <= most_rows) return rows;
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return rows.depth[a] < rows.depth[b]; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return rows.depth[a] < rows.depth[b]; });
   PressRows mean;
   mean.low = rows.low;
   mean.high = rows.high;
@@ -133,8 +133,8 @@ std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& 
                               keep);
   }
   if (!best) return std::nullopt;
-  best->before = as_index(std::count_if(rows.depth.begin(), rows.depth.end(),
-                                        [&](double h) { return h <= best->contact; }));
+  best->before =
+      as_index(std::ranges::count_if(rows.depth, [&](double h) { return h <= best->contact; }));
   const double share =
       static_cast<double>(rows.depth.size()) / static_cast<double>(few.depth.size());
   best->squares *= share;
@@ -406,8 +406,8 @@ void warn_of_contact(Fit& fit, const ContactResult& result) {
   const bool round = test.tip == Tip::Kind::paraboloid || test.tip == Tip::Kind::sphere;
   if (round && result.deepest > test.radius) {
     warn("the tip is " + rounded_text(result.deepest / test.radius, 3) +
-         " radii deep, and beyond one radius its shape is no sphere; give the part of the curve "
-         "up to a smaller depth by `--to`");
+         " radii deep, and beyond one radius its shape is no sphere; give the part of the curve up "
+         "to a smaller depth by `--to`");
   } else if (test.tip == Tip::Kind::paraboloid) {
     const double error = error_of_hertz(result.deepest, test.radius);
     if (error > 0.02)
@@ -459,7 +459,7 @@ class ContactFit {
     leave_out(fit_, depth.size() - h.size(), "a number is missing or not finite");
     refuse_few(h.size());
     take_one_way(h, f);
-    const auto [low, high] = std::minmax_element(h.begin(), h.end());
+    const auto [low, high] = std::ranges::minmax_element(h);
     if (*low == *high)
       throw InputError({}, "all points have the same depth; give a curve over depth");
     scale_ = scale_to_one(f);
@@ -483,8 +483,7 @@ class ContactFit {
     keep(part.from, part.to,
          test_.way == Way::retract ? "the way to the deepest row"
          : part.loadings > 1       ? "the way back, and other loadings"
-                                   : "the way back from the deepest row; `--segment retract` "
-                                     "fits it");
+                             : "the way back from the deepest row; `--segment retract` fits it");
     if (test_.way == Way::approach) {
       if (const Limit limit = limit_of(f); limit.to == f.size())
         keep(0, limit.from, "the force stays at its largest value, as at the limit of a sensor");
@@ -511,10 +510,10 @@ class ContactFit {
     }
     if (choice) return *choice;
     if (rows_.range() > law_.deepest)
-      throw InputError(
-          {}, "the curve is deeper than " + rounded_text(unit::mm.from_si(law_.deepest)) +
-                  " mm, up to which the law of so thin a layer is valid; give the part of the "
-                  "curve up to that depth, by `--to`");
+      throw InputError({}, "the curve is deeper than " +
+                               rounded_text(unit::mm.from_si(law_.deepest)) +
+                               " mm, up to which the law of so thin a layer is valid; give the "
+                               "part of the curve up to that depth, by `--to`");
     throw InputError({}, "no contact point fits the curve; give a curve of force over depth");
   }
 
@@ -547,7 +546,7 @@ class ContactFit {
       kept.force.push_back(all_.force[i]);
     }
     refuse_few(kept.depth.size());
-    const auto [low, high] = std::minmax_element(kept.depth.begin(), kept.depth.end());
+    const auto [low, high] = std::ranges::minmax_element(kept.depth);
     if (*low == *high)
       throw InputError({}, "no depth is left between the limits of depth; widen them");
     kept.low = *low;
@@ -631,19 +630,19 @@ class ContactFit {
                          "the load falls with depth; give `--compression negative` if the load "
                          "cell reports compression as negative, or another `--x`");
       throw InputError({}, std::string("the load ") + (best == height ? "grows" : "falls") +
-                               " as the depth falls, as it does over a height; give "
-                               "`--compression auto`, which turns the signs, or another `--x`");
+                               " as the depth falls, as it does over a height; give `--compression "
+                               "auto`, which turns the signs, or another `--x`");
     }
     if (!grows)
       throw InputError({},
-                       "the load does not grow with depth anywhere, with any sign, so that "
-                       "the curve shows no contact; name other columns by `--x` and `--y`");
+                       "the load does not grow with depth anywhere, with any sign, so that the "
+                       "curve shows no contact; name other columns by `--x` and `--y`");
     const auto n = static_cast<double>(rows_.depth.size());
     if (choice.baseline != Baseline::none && guess.straight > 0.0 &&
         n * std::log(guess.straight / std::max(guess.squares, 1e-300)) < 2.0 * std::log(n) + 6.0)
       throw InputError({},
-                       "the curve shows no contact: a straight line describes it as well; "
-                       "record more points in contact, or choose a part of the curve");
+                       "the curve shows no contact: a straight line describes it as well; record "
+                       "more points in contact, or choose a part of the curve");
     const std::size_t beyond = rows_.depth.size() - guess.before;
     if (beyond < 3)
       throw InputError({}, "only " + std::to_string(beyond) +
@@ -707,8 +706,8 @@ class ContactFit {
         test_.contact_point ? *test_.contact_point : minimum.parameters[1] * rows_.range();
     ContactResult result{test_, choice.baseline};
     result.deepest = rows_.high - contact;
-    result.before = as_index(std::count_if(rows_.depth.begin(), rows_.depth.end(),
-                                           [&](double h) { return h <= contact; }));
+    result.before =
+        as_index(std::ranges::count_if(rows_.depth, [&](double h) { return h <= contact; }));
     result.beyond = rows_.depth.size() - result.before;
     const double pressed =
         minimum.parameters[0] * choice.guess.factor * law_.unit(result.deepest).force;

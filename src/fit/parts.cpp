@@ -15,7 +15,7 @@ namespace palpate::fit {
 std::vector<Branch> branches_of(std::span<const double> x, double share) {
   std::vector<Branch> branches;
   if (x.empty()) return branches;
-  const auto [least, most] = std::minmax_element(x.begin(), x.end());
+  const auto [least, most] = std::ranges::minmax_element(x);
   const double back = share * (*most - *least);
   std::size_t start = 0;
   std::size_t low = 0;  // first lowest and highest row since the last turn
@@ -43,7 +43,7 @@ std::vector<Branch> branches_of(std::span<const double> x, double share) {
 }
 
 OneWay one_way(std::span<const double> depth, Way way) {
-  const auto [low, high] = std::minmax_element(depth.begin(), depth.end());
+  const auto [low, high] = std::ranges::minmax_element(depth);
   OneWay part{0, depth.size()};
   const std::vector<Branch> branches = branches_of(depth);
   for (std::size_t k = 0; k < branches.size(); ++k) {
@@ -58,7 +58,7 @@ OneWay one_way(std::span<const double> depth, Way way) {
 }
 
 Limit limit_of(std::span<const double> y) {
-  const auto from = std::max_element(y.begin(), y.end());
+  const auto from = std::ranges::max_element(y);
   auto to = from;
   while (to != y.end() && *to == *from) ++to;
   // The longest of the next two runs of equal values.
@@ -79,7 +79,7 @@ Limit limit_of(std::span<const double> y) {
 
 std::size_t rows_before_break(std::span<const double> force) {
   if (force.size() < 4) return force.size();
-  const auto [least, peak] = std::minmax_element(force.begin(), force.end());
+  const auto [least, peak] = std::ranges::minmax_element(force);
   if (*peak - force[0] < 0.5 * (*peak - *least)) return force.size();  // negative in compression
   const auto beyond = static_cast<std::size_t>(force.end() - peak) - 1;
   if (beyond < 3) return force.size();
@@ -96,7 +96,7 @@ std::size_t rows_before_fall(std::span<const double> stress, double share) {
   const double spread = 2.0 * std::sqrt(2.0 * std::log(static_cast<double>(stress.size())));
   const double clear = std::max(6.0, spread) * noise_of(stress);
   // What falls below a tenth of the whole rise is slack that gives way, or noise.
-  const double rise = *std::max_element(stress.begin(), stress.end()) - stress[0];
+  const double rise = *std::ranges::max_element(stress) - stress[0];
   std::size_t peak = 0;
   for (std::size_t i = 0; i < stress.size(); ++i) {
     if (stress[i] > stress[peak]) peak = i;
@@ -145,8 +145,8 @@ Record record_of(std::span<const double> x, std::span<const double> y) {
   std::vector<std::pair<double, double>> rows;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (std::isfinite(x[i]) && std::isfinite(y[i])) rows.emplace_back(x[i], y[i]);
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const auto& one, const auto& other) { return one.first < other.first; });
+  std::ranges::stable_sort(
+      rows, [](const auto& one, const auto& other) { return one.first < other.first; });
   Record record;
   for (const auto& [time, value] : rows) {
     record.x.push_back(time);
@@ -163,7 +163,7 @@ bool spaced_by_a_factor(const Record& record) {
     return false;
   std::vector<double> more;
   for (std::size_t i = 0; i < count; ++i) more.push_back(record.x[i + 1] / record.x[i] - 1.0);
-  std::sort(more.begin(), more.end());
+  std::ranges::sort(more);
   return more[count - 1 - count / 10] < 2.0 * more[count / 10];
 }
 
@@ -178,7 +178,7 @@ Peak peak_of(const Record& record, double noise) {
   const auto reaches = [&](double y) {
     return std::copysign(1.0, far) * y >= std::abs(far) - 3.0 * noise;
   };
-  const auto first = std::find_if(record.y.begin(), record.y.end(), reaches);
+  const auto first = std::ranges::find_if(record.y, reaches);
   const auto last = std::find_if(record.y.rbegin(), record.y.rend(), reaches);
   return {as_index(first - record.y.begin()), as_index(record.y.rend() - last) - 1};
 }
@@ -186,7 +186,7 @@ Peak peak_of(const Record& record, double noise) {
 // The last row of the first level, from whose mean y goes on to differ in at least three rows. Only
 // a level of at least four rows is one.
 std::size_t row_of_departure(const Record& record, double noise) {
-  const auto [least, most] = std::minmax_element(record.y.begin(), record.y.end());
+  const auto [least, most] = std::ranges::minmax_element(record.y);
   const double clear = std::max(5.0 * noise, 0.02 * (*most - *least));
   const std::size_t size = record.y.size();
   double sum = record.y[0];
@@ -367,7 +367,7 @@ StepOrigin step_origin(std::span<const double> given_x, std::span<const double> 
 std::size_t rows_before_recovery(std::span<const double> x, std::span<const double> y) {
   if (y.empty()) return 0;
   const double noise = noise_of(y);
-  const double rise = *std::max_element(y.begin(), y.end()) - y[0];
+  const double rise = *std::ranges::max_element(y) - y[0];
   std::size_t peak = 0;
   std::size_t from = 0;  // of the recovery
   double clear = 0.0;
@@ -383,7 +383,7 @@ std::size_t rows_before_recovery(std::span<const double> x, std::span<const doub
   for (double least = y[from]; to < y.size() && y[to] - least <= clear; ++to)
     least = std::min(least, y[to]);
   const double corner = step_origin(x.first(to), y.first(to), AfterStep::recovers, 0.0).best.first;
-  return as_index(std::count_if(x.begin(), x.end(), [&](double each) { return each <= corner; }));
+  return as_index(std::ranges::count_if(x, [&](double each) { return each <= corner; }));
 }
 
 std::optional<Misfit> misfit_of(const std::function<Fit()>& fit) {

@@ -77,7 +77,7 @@ void scale_history(Points& points) {
   if (largest == 0.0)
     throw InputError({}, "the loading history is 0 at every point; name another `--history`");
   for (double& each : samples) each /= largest;
-  if (!std::is_sorted(points.x.begin(), points.x.end()))
+  if (!std::ranges::is_sorted(points.x))
     throw InputError({},
                      "the times do not ascend, as a loading history wants; give a part of the "
                      "table by `--rows`");
@@ -110,7 +110,7 @@ Points usable(std::span<const double> x, std::span<const double> y, const PronyS
   points.history.ramp = series.history.ramp / points.x_scale;
   scale_history(points);
   std::vector<double> sorted = points.x;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] > sorted[i - 1])
       points.least_gap = std::min(points.least_gap, sorted[i] - sorted[i - 1]);
@@ -239,7 +239,7 @@ void finish_terms(Minimum& minimum, std::size_t lead) {
   const std::size_t count = minimum.parameters.size();
   std::vector<std::size_t> terms((count - lead) / 2);
   std::iota(terms.begin(), terms.end(), std::size_t{0});
-  std::stable_sort(terms.begin(), terms.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(terms, [&](std::size_t a, std::size_t b) {
     return minimum.parameters[lead + 2 * a + 1] < minimum.parameters[lead + 2 * b + 1];
   });
   std::vector<std::size_t> from(lead);
@@ -422,7 +422,7 @@ Fit fit_prony(std::span<const double> x, std::span<const double> y, const PronyS
   const std::size_t lead = basis.leading().size();
   const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
                             std::span<double> slopes) {
-    std::fill(values.begin(), values.end(), 0.0);
+    std::ranges::fill(values, 0.0);
     for (std::size_t k = 0; k < lead; ++k)
       for (std::size_t i = 0; i < values.size(); ++i) {
         values[i] += p[k] * basis.leading()[k][i];
@@ -529,7 +529,7 @@ Fit fit_fractional(std::span<const double> x, std::span<const double> y, Fractio
   need_points(fit.name, count + 1, times.size(), " after the step",
               "; record more points, or give `--origin`");
   const double y_scale = scale_to_one(values);
-  const double length = *std::max_element(times.begin(), times.end());
+  const double length = *std::ranges::max_element(times);
   for (double& each : times) each /= length;
 
   Separable curve;  // its shapes: the logarithm of tau, and the logit of beta

@@ -141,16 +141,6 @@ void settle(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
   if (fit.termination == Termination::converged) set_errors(fit, minimum, scaling);
 }
 
-std::string_view word(Termination termination) {
-  switch (termination) {
-    case Termination::converged: return "converged";
-    case Termination::not_converged: return "not_converged";
-    case Termination::undetermined: return "undetermined";
-    case Termination::failed: return "failed";
-  }
-  return {};
-}
-
 std::optional<std::vector<double>> initial_guess(std::span<const double> x,
                                                  std::span<const double> y, Model model) {
   const Eigen::Map<const Eigen::VectorXd> target(y.data(), static_cast<Eigen::Index>(x.size()));

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/words.h"
+
 namespace palpate::fit {
 
 enum class Model {
@@ -71,7 +73,9 @@ enum class Termination {
 };
 
 // The word for it in fits.csv.
-[[nodiscard]] std::string_view word(Termination termination);
+[[nodiscard]] constexpr std::string_view word(Termination termination) {
+  return name_of<Termination::failed>(termination);
+}
 
 struct Estimate {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -275,7 +275,7 @@ double half_width(const std::vector<Process>& all, Eigen::Index i,
     double share = 0.0;
     for (const Process& one : all) {
       const double at = width / std::sqrt(one.covariance(i, i));
-      const auto beyond = students.end() - std::upper_bound(students.begin(), students.end(), at);
+      const auto beyond = students.end() - std::ranges::upper_bound(students, at);
       share += one.weight * static_cast<double>(beyond) / static_cast<double>(students.size());
     }
     return share > 0.05;
@@ -293,7 +293,7 @@ std::vector<double> quantised_covariance(std::span<const double> values,
   const std::size_t p = n == 0 ? 0 : jacobian.size() / n;
   if (n < 20 || inverse.size() != p * p) return {};
   std::vector<double> levels(values.begin(), values.end());
-  std::sort(levels.begin(), levels.end());
+  std::ranges::sort(levels);
   const double slack = 1e-9 * std::max(std::abs(levels.front()), std::abs(levels.back()));
   double step = std::numeric_limits<double>::infinity();
   std::size_t count = 1;
@@ -449,8 +449,8 @@ std::string correlation_sentence(double durbin_watson, std::size_t points, doubl
          "count the " +
          std::to_string(points) + " points as " + rounded_text(std::max(1.0, effective), 3) +
          " independent ones, as slow noise wants; the bias of a wrong law is not in them" +
-         (effective < 10.0 ? ", and an effective sample size below 10 cannot tell the two "
-                             "apart: record a longer curve"
+         (effective < 10.0 ? ", and an effective sample size below 10 cannot tell the two apart: "
+                             "record a longer curve"
                            : "");
 }
 

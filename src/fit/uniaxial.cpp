@@ -87,8 +87,8 @@ class UniaxialFit {
 
   Fit all() {
     fit_.n = static_cast<int>(strain_.size());
-    fit_.range_low = *std::min_element(strain_.begin(), strain_.end());
-    fit_.range_high = *std::max_element(strain_.begin(), strain_.end());
+    fit_.range_low = *std::ranges::min_element(strain_);
+    fit_.range_high = *std::ranges::max_element(strain_);
     if (test_.model == UniaxialTest::Model::modulus)
       line();
     else
@@ -122,7 +122,7 @@ class UniaxialFit {
   // The sign of the strain is that of its largest change from the first row, unless the rows lie on
   // both sides of zero: compression and tension are one law.
   void turn() {
-    const auto [least, most] = std::minmax_element(strain_.begin(), strain_.end());
+    const auto [least, most] = std::ranges::minmax_element(strain_);
     if (*least == *most)
       throw InputError({}, "all points have the same strain; give a curve over strain");
     both_ = std::min(-*least, *most) > 0.1 * std::max(-*least, *most) && grows_through_zero();
@@ -138,12 +138,11 @@ class UniaxialFit {
         return turn_to_positive();
       }
       if (loading_ == UniaxialTest::Loading::unknown) loading_ = UniaxialTest::Loading::tension;
-      fit_.notes.emplace_back(
-          std::string("the curve has tension and compression, which are fitted together; positive "
-                      "strains are ") +
-          (loading_ == UniaxialTest::Loading::tension
-               ? "tension; `--loading compression` turns them"
-               : "compression"));
+      fit_.notes.emplace_back(std::string("the curve has tension and compression, which are fitted "
+                                          "together; positive strains are ") +
+                              (loading_ == UniaxialTest::Loading::tension
+                                   ? "tension; `--loading compression` turns them"
+                                   : "compression"));
       return;
     }
     turn_to_positive();
@@ -168,8 +167,8 @@ class UniaxialFit {
     fit_.notes.emplace_back("strain and stress are negative in compression; both signs changed");
     if (loading_ == UniaxialTest::Loading::tension)
       throw InputError({},
-                       "the strain is negative, as in compression; leave `--loading tension` "
-                       "out, or name another `--x`");
+                       "the strain is negative, as in compression; leave `--loading tension` out, "
+                       "or name another `--x`");
     loading_ = UniaxialTest::Loading::compression;
   }
 
@@ -326,8 +325,7 @@ class UniaxialFit {
       least[0] = squares;
       best = {knee, offset, slope};
     }
-    const auto before =
-        std::count_if(strain_.begin(), strain_.end(), [&](double x) { return x < best.strain; });
+    const auto before = std::ranges::count_if(strain_, [&](double x) { return x < best.strain; });
     const bool line = least[0] < 0.005 * total;
     const bool better = n * std::log(least[1] / std::max(least[0], 1e-300)) > 20.0;
     if (before < 5 || !line || !better) return std::nullopt;
@@ -355,8 +353,8 @@ class UniaxialFit {
   // sigma = sigma_0 + E_tangent epsilon
   void line() {
     fit_.law =
-        "tangent: slope of the line through the points; secant: from the first row to the "
-        "largest strain";
+        "tangent: slope of the line through the points; secant: from the first row to the largest "
+        "strain";
     fit_.parameters = {{.name = "E_tangent", .unit = "kPa"}, {.name = "sigma_0", .unit = "kPa"}};
     const CurveAt curve = [&](std::span<const double> p, std::span<double> values,
                               std::span<double> slopes) {
@@ -526,26 +524,25 @@ class UniaxialFit {
       for (double* value : {&one.estimate, &one.std_error, &one.ci95_low, &one.ci95_high})
         *value /= factor;
     }
-    fit_.law += test_.poisson_ratio
-                    ? ", divided by " + rounded_text(factor) +
-                          " of bonded platens, Gent and Lindley's 1 + 2 S^2 in series with the "
-                          "modulus of uniaxial strain, for nu = " +
-                          rounded_text(*test_.poisson_ratio)
-                    : ", divided by 1 + 2 S^2 = " + rounded_text(factor) +
-                          " of bonded platens, Gent and Lindley 1959, for nu = 1/2";
+    fit_.law += test_.poisson_ratio ? ", divided by " + rounded_text(factor) +
+                                          " of bonded platens, Gent and Lindley's 1 + 2 S^2 in "
+                                          "series with the modulus of uniaxial strain, for nu = " +
+                                          rounded_text(*test_.poisson_ratio)
+                                    : ", divided by 1 + 2 S^2 = " + rounded_text(factor) +
+                                          " of bonded platens, Gent and Lindley 1959, for nu = 1/2";
     const auto higher = [&](double nu) {
       return factor / contact::bonded_stiffening(*test_.shape_factor, nu) - 1.0;
     };
     if (!test_.poisson_ratio && higher(0.45) > 0.02)
       fit_.warnings.push_back(
-          "the factor of bonded platens is that of incompressible tissue: at "
-          "nu = 0.45 the modulus would be " +
+          "the factor of bonded platens is that of incompressible tissue: at nu = 0.45 the modulus "
+          "would be " +
           percent_text(higher(0.45)) + " higher, at nu = 0.3 " + percent_text(higher(0.3)) +
           "; give `--poisson`");
     if (fit_.range_high > 0.1 && factor > 1.05)
       fit_.warnings.push_back(
-          "the factor of bonded platens is one of small strain, and the curve "
-          "reaches a strain of " +
+          "the factor of bonded platens is one of small strain, and the curve reaches a strain "
+          "of " +
           rounded_text(fit_.range_high, 2) + "; give a smaller `--to`");
   }
 

@@ -168,7 +168,7 @@ class ViscousFit {
   // many rows near the deepest one as before it. A finger that turns back has as many.
   [[nodiscard]] std::size_t with_hold(std::size_t to) const {
     constexpr double near = 0.98;  // of the range: what a stand may wander while it holds
-    const auto [low, high] = std::minmax_element(depth_.begin(), depth_.end());
+    const auto [low, high] = std::ranges::minmax_element(depth_);
     const double deep = *low + near * (*high - *low);
     std::size_t begin = to, end = to;
     while (begin > 0 && depth_[begin - 1] >= deep) --begin;
@@ -205,7 +205,7 @@ class ViscousFit {
         fit_, time_.size() - part.to,
         "the way back from the deepest rows; `--segment all` fits both ways, by Ting's contact");
     for (std::vector<double>* each : {&time_, &depth_, &force_}) each->resize(part.to);
-    const auto [low, high] = std::minmax_element(depth_.begin(), depth_.end());
+    const auto [low, high] = std::ranges::minmax_element(depth_);
     low_ = *low;
     range_ = *high - *low;
     if (!(range_ > 0.0))
@@ -236,10 +236,9 @@ class ViscousFit {
       knots_.time.push_back(t / static_cast<double>(to - from));
       knots_.depth.push_back(h / static_cast<double>(to - from));
     }
-    knots_.deepest =
-        as_index(std::max_element(knots_.depth.begin(), knots_.depth.end()) - knots_.depth.begin());
+    knots_.deepest = as_index(std::ranges::max_element(knots_.depth) - knots_.depth.begin());
     for (const double t : time_) {
-      const auto right = std::clamp(std::upper_bound(knots_.time.begin(), knots_.time.end(), t),
+      const auto right = std::clamp(std::ranges::upper_bound(knots_.time, t),
                                     knots_.time.begin() + 1, knots_.time.end() - 1);
       right_.push_back(as_index(right - knots_.time.begin()));
     }
@@ -315,8 +314,8 @@ class ViscousFit {
     if (error > 0.02)
       fit_.warnings.push_back("at the largest depth Hertz's law of a paraboloid is " +
                               percent_text(error) +
-                              " stiffer than the exact law of a sphere; "
-                              "give the rows up to a smaller depth by `--rows`");
+                              " stiffer than the exact law of a sphere; give the rows up to a "
+                              "smaller depth by `--rows`");
     warn_of_residuals(fit_);
   }
 

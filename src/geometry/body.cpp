@@ -95,7 +95,7 @@ Surface facets(const Body& body) {
     for (std::array<int, 3> triangle : part.surface.triangles) {
       for (int& corner : triangle) corner = number[as_index(corner)];
       std::array<int, 3> key = triangle;
-      std::sort(key.begin(), key.end());
+      std::ranges::sort(key);
       if (known.insert(key).second) all.triangles.push_back(triangle);
     }
   }

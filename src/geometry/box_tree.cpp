@@ -144,8 +144,7 @@ void BoxTree::within(const Vec3& point, double radius, std::vector<Near>& found)
       if (one.distance_squared <= most) found.push_back(one);
     }
   }
-  std::sort(found.begin(), found.end(),
-            [](const Near& a, const Near& b) { return a.triangle < b.triangle; });
+  std::ranges::sort(found, {}, &Near::triangle);
 }
 
 Near BoxTree::nearest(const Vec3& point) const {
@@ -209,7 +208,7 @@ double BoxTree::first_along(const Vec3& point, const Vec3& direction, double lea
       const std::array<double, 3> sides{direction.dot(second.cross(third)),
                                         direction.dot(third.cross(first)),
                                         direction.dot(first.cross(second))};
-      const auto [low, high] = std::minmax_element(sides.begin(), sides.end());
+      const auto [low, high] = std::ranges::minmax_element(sides);
       if (*low < 0.0 && *high > 0.0) continue;  // the line passes beside it
       const double sum = sides[0] + sides[1] + sides[2];
       if (sum == 0.0) continue;  // or within its plane

@@ -47,7 +47,7 @@ void CurvatureStars::part_at_creases(const Surface& rest, const Neighbours& neig
           waiting.push_back(other);
         }
       }
-      std::sort(waiting.begin(), waiting.end());
+      std::ranges::sort(waiting);
       triangles_.insert(triangles_.end(), waiting.begin(), waiting.end());
       triangle_starts_.push_back(static_cast<int>(triangles_.size()));
     }
@@ -242,7 +242,7 @@ bool CurvatureStars::plane(const Surface& now, int side) const {
   const std::span<const int> star = star_of(side);
   const Vec3 upright = normal(now, side).normalized();
   const double off = rounding * spread(now, side);
-  return star.size() > 1 && std::all_of(star.begin(), star.end(), [&](int other) {
+  return star.size() > 1 && std::ranges::all_of(star, [&](int other) {
            const Vec3 away = position(now, other) - position(now, side);
            return away.norm() > off && std::abs(upright.dot(away)) <= off;
          });

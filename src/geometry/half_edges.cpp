@@ -30,19 +30,19 @@ Joints::Refused refused(const Mesh& mesh, int triangle, const std::array<int, 3>
     if (!taken.is_valid() || taken.is_boundary()) continue;
     found.others = {taken.face().idx()};
     if (!taken.opp().is_boundary()) found.others.push_back(taken.opp().face().idx());
-    std::sort(found.others.begin(), found.others.end());
+    std::ranges::sort(found.others);
     return found;
   }
   // Triangles all around a vertex leave no gap for another; otherwise there are several gaps.
   const auto shut = [&](int vertex) { return !mesh.is_boundary(vertex_handle(vertex)); };
   const auto torn = [&](int vertex) { return !mesh.is_manifold(vertex_handle(vertex)); };
-  const auto* at = std::find_if(corners.begin(), corners.end(), shut);
-  if (at == corners.end()) at = std::find_if(corners.begin(), corners.end(), torn);
+  const auto* at = std::ranges::find_if(corners, shut);
+  if (at == corners.end()) at = std::ranges::find_if(corners, torn);
   found.from = at == corners.end() ? corners[0] : *at;
   found.to = -1;
   for (const auto face : mesh.vf_range(vertex_handle(found.from)))
     found.others.push_back(face.idx());
-  found.others = {*std::min_element(found.others.begin(), found.others.end())};
+  found.others = {*std::ranges::min_element(found.others)};
   return found;
 }
 
@@ -65,7 +65,7 @@ std::optional<Joints::Refused> join(const Surface& surface, Mesh& mesh) {
 // Stores lists in one array, for list_of().
 void pack(std::vector<int>&& list, std::vector<int>& starts, std::vector<int>& items) {
   if (starts.empty()) starts.push_back(0);
-  std::sort(list.begin(), list.end());
+  std::ranges::sort(list);
   items.insert(items.end(), list.begin(), list.end());
   starts.push_back(static_cast<int>(items.size()));
 }

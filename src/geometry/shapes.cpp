@@ -7,14 +7,12 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "base/numerics.h"
 #include "base/text.h"
 #include "geometry/cuboid.h"
-#include "geometry/shape_loops.h"
 
 namespace palpate::geometry {
 namespace {

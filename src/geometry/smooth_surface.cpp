@@ -121,9 +121,9 @@ void SmoothSurface::find_normals() {
               (corners[edge] != vertex && corners[(edge + 1) % 3] != vertex))
             continue;
           const int next = neighbours_.across(fan[i])[edge];
-          if (std::find(fan.begin(), fan.end(), next) == fan.end()) fan.push_back(next);
+          if (std::ranges::find(fan, next) == fan.end()) fan.push_back(next);
         }
-      std::sort(fan.begin(), fan.end());  // the sum must not depend on the start triangle
+      std::ranges::sort(fan);  // the sum must not depend on the start triangle
       Vec3 sum = Vec3::Zero();
       for (const int triangle : fan) {
         const auto& corners = surface_.triangles[as_index(triangle)];

@@ -123,7 +123,7 @@ double corner_angle(const Surface& surface, int triangle, std::size_t corner) {
 }
 
 std::size_t corner_of(const std::array<int, 3>& triangle, int vertex) {
-  return as_index(std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin());
+  return as_index(std::ranges::find(triangle, vertex) - triangle.begin());
 }
 
 std::span<const int> list_of(const std::vector<int>& starts, const std::vector<int>& items,
@@ -155,7 +155,7 @@ std::vector<int> Neighbours::rings(std::span<const int> start, int rings) const 
         found.push_back(next);
       }
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

@@ -36,7 +36,7 @@ std::vector<std::array<int, 2>> edges(const TetMesh& mesh) {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = i + 1; j < 4; ++j)
         found.push_back({std::min(corner[i], corner[j]), std::max(corner[i], corner[j])});
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
@@ -50,13 +50,12 @@ std::vector<FaceUse> face_uses(const TetMesh& mesh) {
       FaceUse use;
       use.nodes = {corner[as_index(i)], corner[as_index(j)], corner[as_index(k)]};
       use.key = use.nodes;
-      std::sort(use.key.begin(), use.key.end());
+      std::ranges::sort(use.key);
       use.tetrahedron = static_cast<int>(t);
       uses.push_back(use);
     }
   }
-  std::stable_sort(uses.begin(), uses.end(),
-                   [](const FaceUse& a, const FaceUse& b) { return a.key < b.key; });
+  std::ranges::stable_sort(uses, {}, &FaceUse::key);
   return uses;
 }
 
@@ -71,10 +70,10 @@ std::vector<std::array<int, 3>> boundary_faces(const TetMesh& mesh) {
   const auto place = [&](const FaceUse& use) {  // the number of the face's opposite node
     const auto& corner = mesh.tetrahedra[as_index(use.tetrahedron)];
     int opposite = 0;
-    while (std::count(use.key.begin(), use.key.end(), corner[as_index(opposite)])) ++opposite;
+    while (std::ranges::count(use.key, corner[as_index(opposite)])) ++opposite;
     return opposite;
   };
-  std::sort(single.begin(), single.end(), [&](const FaceUse& a, const FaceUse& b) {
+  std::ranges::sort(single, [&](const FaceUse& a, const FaceUse& b) {
     if (a.tetrahedron != b.tetrahedron) return a.tetrahedron < b.tetrahedron;
     return place(a) < place(b);
   });

@@ -50,7 +50,7 @@ class Weighted {
   bool curve(std::span<const double> u, std::span<double> values) {
     ++evaluations_;
     return problem_->curve(u, values) &&
-           std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+           std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
   }
 
   // Beyond the box y(u) = 2 y(bound) - y(mirrored), so that a central difference at a bound equals
@@ -113,8 +113,7 @@ BoxMinimum evaluate_in_box(const BoxProblem& problem, std::span<const double> u,
     const double residual = values[i] - curve.measured()[i];
     at.squares += residual * residual;
   }
-  at.found = std::all_of(at.jacobian.begin(), at.jacobian.end(),
-                         [](double slope) { return std::isfinite(slope); });
+  at.found = std::ranges::all_of(at.jacobian, [](double slope) { return std::isfinite(slope); });
   return at;
 }
 
@@ -189,9 +188,7 @@ SearchResult search_from_several(const BoxProblem& problem, int searches) {
     result.evaluations += at.evaluations;
     if (at.found) starts.push_back({u, at.squares});
   }
-  std::stable_sort(starts.begin(), starts.end(), [](const Start& one, const Start& other) {
-    return one.squares < other.squares;
-  });
+  std::ranges::stable_sort(starts, {}, &Start::squares);
   for (std::size_t k = 0; k < std::min(as_index(searches), starts.size()); ++k) {
     BoxMinimum minimum = minimise_in_box(problem, starts[k].u, {});
     result.evaluations += minimum.evaluations;
@@ -298,8 +295,8 @@ class Side {
 
 void finish(Profile& profile, const BoxMinimum& best, std::size_t i) {
   profile.points.push_back({best.u[i], best.squares, best.u});
-  std::stable_sort(profile.points.begin(), profile.points.end(),
-                   [](const auto& one, const auto& other) { return one.u < other.u; });
+  std::ranges::stable_sort(profile.points,
+                           [](const auto& one, const auto& other) { return one.u < other.u; });
 }
 
 }  // namespace
@@ -343,8 +340,6 @@ dense::Svd svd_of(std::span<const double> jacobian, std::size_t unknowns) {
   const Eigen::Map<const Matrix> slopes(jacobian.data(), rows, static_cast<Eigen::Index>(unknowns));
   return dense::svd(slopes);
 }
-
-bool has(const std::string& key, const char* ending) { return key.ends_with(ending); }
 
 // d ln p / du, and dp / du with p in the unknown's unit.
 double log_slope(const Unknown& unknown, double u) { return unknown.slope(u) / unknown.value(u); }
@@ -409,8 +404,7 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
   const std::size_t m = found.of.size();
   if (m < 2 || errors.loose.size() + 1 != m) return std::nullopt;
 
-  // The direction within the inseparable unknowns that is orthogonal to all loose
-  // directions.
+  // The direction within the inseparable unknowns that is orthogonal to all loose directions.
   Eigen::MatrixXd loose(static_cast<Eigen::Index>(m - 1), static_cast<Eigen::Index>(m));
   for (std::size_t k = 0; k + 1 < m; ++k)
     for (std::size_t i = 0; i < m; ++i)
@@ -441,17 +435,17 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
   // E / (1 - nu^2): Hertz's law depends on E and nu through this modulus only.
   const std::size_t a = found.of[0];
   const std::size_t b = found.of[1];
-  const bool elastic =
-      m == 2 && (has(unknowns[a].key, ".young_modulus") || has(unknowns[b].key, ".young_modulus"));
+  const bool elastic = m == 2 && (unknowns[a].key.ends_with(".young_modulus") ||
+                                  unknowns[b].key.ends_with(".young_modulus"));
   if (elastic) {
-    const std::size_t e = has(unknowns[a].key, ".young_modulus") ? a : b;
+    const std::size_t e = unknowns[a].key.ends_with(".young_modulus") ? a : b;
     const std::size_t r = e == a ? b : a;
     const double nu = unknowns[r].value(u[r]);
     gradient[e] = log_slope(unknowns[e], u[e]);
     gradient[r] = 2.0 * nu / (1.0 - nu * nu) * unknowns[r].slope(u[r]);
     const double along_e = gradient[e] * errors.loose[0][e];
     const double along_r = gradient[r] * errors.loose[0][r];
-    if (has(unknowns[r].key, ".poisson_ratio") &&
+    if (unknowns[r].key.ends_with(".poisson_ratio") &&
         std::abs(along_e + along_r) <= 0.05 * std::abs(along_e)) {
       found.text = unknowns[e].name() + " / (1 - " + unknowns[r].name() + "^2)";
       found.unit = unknowns[e].unit_text();
@@ -459,8 +453,8 @@ std::optional<Combination> combination(const BoxErrors& errors, std::span<const 
     }
   }
 
-  const bool powers = std::all_of(found.of.begin(), found.of.end(),
-                                  [&](std::size_t i) { return unknowns[i].low > 0.0; });
+  const bool powers =
+      std::ranges::all_of(found.of, [&](std::size_t i) { return unknowns[i].low > 0.0; });
   const auto slope = [&](std::size_t i) {
     return powers ? log_slope(unknowns[i], u[i]) : shown_slope(unknowns[i], u[i]);
   };

@@ -70,8 +70,7 @@ struct Profile {
 [[nodiscard]] Profile profile(const BoxProblem& problem, const BoxMinimum& best, std::size_t i,
                               std::span<const double> covariance, double sigma, double t);
 
-// For an inseparable unknown: nine points, evenly over the box, without a search for
-// the ends.
+// For an inseparable unknown: nine points, evenly over the box, without a search for the ends.
 [[nodiscard]] Profile profile_over_box(const BoxProblem& problem, const BoxMinimum& best,
                                        std::size_t i);
 
@@ -102,8 +101,7 @@ struct BoxErrors {
 [[nodiscard]] std::vector<double> determined_directions(std::span<const double> jacobian,
                                                         std::size_t unknowns);
 
-// The combination of the inseparable unknowns that the data determine; nothing
-// unless there is just one.
+// The combination of the inseparable unknowns that the data determine, if there is just one.
 [[nodiscard]] std::optional<Combination> combination(const BoxErrors& errors,
                                                      std::span<const Unknown> unknowns,
                                                      std::span<const double> u, double t);

@@ -29,7 +29,7 @@ constexpr double disagreement = 0.2;  // of an interval's half width
 Eigen::Index as_signed(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 double median_spacing(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
+  std::ranges::sort(x);
   std::vector<double> steps;
   for (std::size_t i = 1; i < x.size(); ++i)
     if (x[i] > x[i - 1]) steps.push_back(x[i] - x[i - 1]);
@@ -108,7 +108,7 @@ class Search {
     part.family = pair.family;
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       const auto& in = unknowns_[i].pairs;
-      if (std::find(in.begin(), in.end(), parts_.size() - 1) == in.end()) continue;
+      if (std::ranges::find(in, parts_.size() - 1) == in.end()) continue;
       part.unknowns.push_back(unknowns_[i]);
       part.index.push_back(i);
     }
@@ -158,7 +158,7 @@ class Search {
     problem_.curve = [this](std::span<const double> u, std::span<double> values) {
       ++tried_;
       tell();
-      return std::all_of(parts_.begin(), parts_.end(), [&](Part& part) {
+      return std::ranges::all_of(parts_, [&](Part& part) {
         return !StopScope::stopped() &&
                part.values(u, values.subspan(part.from, part.to - part.from));
       });
@@ -237,7 +237,7 @@ class Search {
       found_.unknowns.push_back(one);
     }
     // Unknowns at a bound are held there for the errors of the others.
-    if (std::count(moving.begin(), moving.end(), 0) > 0) errors_ = errors_of(moving);
+    if (std::ranges::count(moving, 0) > 0) errors_ = errors_of(moving);
     for (std::size_t i = 0; i < n; ++i) set_interval(i);
     predict_errors();
     tie_what_correlates();
@@ -426,13 +426,13 @@ class Search {
 
   void refuse_the_undetermined() const {
     const auto& all = found_.unknowns;
-    if (std::all_of(all.begin(), all.end(), [](const auto& one) { return one.at_bound; }))
+    if (std::ranges::all_of(all, [](const auto& one) { return one.at_bound; }))
       refuse(
           "the best fit lies at the edge of the range of " +
           std::string(all.size() == 1 ? ticked(all.front().unknown.name()) : "every `--unknown`") +
           ", so that the value lies outside; widen the range, or mend the scenario");
-    const bool some = std::any_of(
-        all.begin(), all.end(), [](const auto& one) { return !one.inseparable && !one.at_bound; });
+    const bool some =
+        std::ranges::any_of(all, [](const auto& one) { return !one.inseparable && !one.at_bound; });
     if (!some && found_.combinations.empty())
       refuse("these data cannot tell " +
              std::string(all.size() == 1 ? ticked(all.front().unknown.name())
@@ -559,7 +559,7 @@ class Search {
     for (std::size_t i = 0; i < found_.x.size(); ++i)
       weighted.push_back((found_.measured[i] - found_.model[i]) * weights_[i]);
     const Part& first = parts_.front();
-    const double range = 1.0 / *std::max_element(weights_.begin(), weights_.end());
+    const double range = 1.0 / *std::ranges::max_element(weights_);
     found_.noise = noise_ * std::sqrt(first.rows_each) *
                    (options_.noise == Noise::constant && !joint() ? range : 1.0);
     found_.threshold = t_ * t_;
@@ -600,7 +600,7 @@ class Search {
     const bool press = found.kind == CurveKind::force_travel || found.kind == CurveKind::force_time;
     if (press) found.deep_effect = deep_effect(part.curve->at(values));
     found.scenario = scenario::answered(part.family->cases.front(), part.curve->fixed());
-    double end = *std::max_element(found.x.begin(), found.x.end());
+    double end = *std::ranges::max_element(found.x);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (part.unknowns[i].what == Unknown::What::contact_point) end -= values[i];
     (void)lengthen(found.kind, found.scenario, end);

@@ -63,7 +63,7 @@ class Preparation {
     farthest -= contact != nullptr ? contact->low : 0.0;
     asked.scenario = part_for(kind_, asked.scenario, farthest);
     const bool travel = kind_ == CurveKind::force_travel;
-    double end = *std::max_element(measured_.x.begin(), measured_.x.end());
+    double end = *std::ranges::max_element(measured_.x);
     if (travel && contact != nullptr) end -= contact->value(0.5);
     const bool goes_on = still_in_the_last_step(asked.scenario);
     if (goes_on && lengthen(kind_, asked.scenario, end))
@@ -74,8 +74,7 @@ class Preparation {
     found_.given = fixed.given;
     found_.worst_error = fixed.worst_error;
     found_.curve = std::make_unique<ScenarioCurve>(kind_, fixed, family_, unknowns_);
-    if (goes_on)
-      found_.curve->set_farthest(*std::max_element(measured_.x.begin(), measured_.x.end()));
+    if (goes_on) found_.curve->set_farthest(*std::ranges::max_element(measured_.x));
   }
 
   [[nodiscard]] std::size_t shift_of(const Unknown* one) const {
@@ -134,10 +133,10 @@ class Preparation {
     if (travel && count > 0) {
       const auto part = fit::one_way(measured_.x, fit::Way::approach);
       if (part.loadings == 0)
-        refuse("`" + measured_.x_name +
-               "` falls from its first row to its last: these are rows of the way back, and the "
-               "way in is computed; choose other rows, or fit them by `palpate fit --segment "
-               "retract`");
+        refuse(
+            "`" + measured_.x_name +
+            "` falls from its first row to its last: these are rows of the way back, and the way "
+            "in is computed; choose other rows, or fit them by `palpate fit --segment retract`");
       if (part.loadings > 1)
         found_.notes.push_back("the first of " + std::to_string(part.loadings) +
                                " loadings is fitted; `--rows` chooses the rows of another");
@@ -151,9 +150,9 @@ class Preparation {
     }
     if (kind_ == CurveKind::stress_strain) {
       // A hold, whose strain is noisy, begins within a thousandth of the largest strain.
-      const double most = *std::max_element(measured_.x.begin(), measured_.x.end());
-      const auto held = std::find_if(measured_.x.begin(), measured_.x.end(),
-                                     [&](double x) { return x >= 0.999 * most; });
+      const double most = *std::ranges::max_element(measured_.x);
+      const auto held =
+          std::ranges::find_if(measured_.x, [&](double x) { return x >= 0.999 * most; });
       count = as_index(held - measured_.x.begin()) + 1;
       note_excluded(static_cast<int>(measured_.x.size() - count), "after the largest strain");
     }
@@ -197,7 +196,7 @@ class Preparation {
     found_.x = std::move(means.x);
     found_.measured = std::move(means.y);
     counts_ = std::move(means.count);
-    found_.rows_each = *std::max_element(counts_.begin(), counts_.end());
+    found_.rows_each = *std::ranges::max_element(counts_);
   }
 
   void refuse_poor_data() const {
@@ -207,7 +206,7 @@ class Preparation {
              " cannot determine " + std::to_string(unknowns_.size()) +
              (unknowns_.size() == 1 ? " unknown" : " unknowns") +
              " and the noise; record more points, or remove an `--unknown`");
-    const auto [least, most] = std::minmax_element(found_.measured.begin(), found_.measured.end());
+    const auto [least, most] = std::ranges::minmax_element(found_.measured);
     if (*least == *most)
       refuse("`" + measured_.y_name +
              "` is the same at every point, which determines no property; name another column with "
@@ -215,7 +214,7 @@ class Preparation {
   }
 
   void weigh(Noise noise) {
-    const auto [least, most] = std::minmax_element(found_.measured.begin(), found_.measured.end());
+    const auto [least, most] = std::ranges::minmax_element(found_.measured);
     const double range = *most - *least;
     const double largest = std::max(std::abs(*least), std::abs(*most));
     for (const double y : found_.measured)
@@ -247,7 +246,7 @@ namespace {
 class Blocks {
  public:
   Blocks(const std::vector<double>& x, const std::vector<double>& y) : x_(x), y_(y) {
-    const auto [low, high] = std::minmax_element(y.begin(), y.end());
+    const auto [low, high] = std::ranges::minmax_element(y);
     least_ = 1e-4 * (*high - *low);
     noise_ = fit::noise_of(y);
     constexpr std::size_t count = 1500;

@@ -30,8 +30,8 @@ int first(const scenario::PlainScenario& scenario) {
 
 bool says(const std::string& name, std::initializer_list<const char*> words) {
   const std::string lower = lower_case(name);
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return lower.find(word) != std::string::npos; });
+  return std::ranges::any_of(
+      words, [&](const char* word) { return lower.find(word) != std::string::npos; });
 }
 
 // Contact forces grow as h^(3/2), so that F^(2/3) is interpolated linearly between rows.
@@ -126,9 +126,8 @@ CurveKind curve_of(const Measurement& measured, const scenario::Scenario& scenar
     if (over_time && force) return CurveKind::force_time;
     if (over_length && force) {
       const bool slides = first<scenario::Slide>(scenario) > 0;
-      const bool friction = std::any_of(unknowns.begin(), unknowns.end(), [](const Unknown& one) {
-        return one.key == "contact.friction";
-      });
+      const bool friction = std::ranges::any_of(
+          unknowns, [](const Unknown& one) { return one.key == "contact.friction"; });
       if (slides && (friction || says(measured.x_name, {"slide", "lateral", "shear"}) ||
                      says(measured.y_name, {"tangential", "friction", "shear", "lateral"})))
         return CurveKind::tangential_slide;
@@ -139,8 +138,7 @@ CurveKind curve_of(const Measurement& measured, const scenario::Scenario& scenar
          dimension_name(measured.x_dimension) + " (`" + measured.x_name +
          "`) is no curve of this scenario, which has " +
          (scenario.uniform() ? "strain over time (`creep`), stress over time (`relax`, `compress`) "
-                               "and stress over strain "
-                               "(`compress`)"
+                               "and stress over strain (`compress`)"
                              : "force over a length (`indent`, `slide`) and force over time") +
          "; name other columns with `--x` and `--y`, or give another scenario");
 }
@@ -172,7 +170,7 @@ ScenarioCurve::ScenarioCurve(CurveKind kind, FixedModel fixed_model, const scena
   };
   // Shapes that depend on an unknown are not used again and are not kept.
   shape_varies_ =
-      fixed_.meshed() && std::any_of(unknowns.begin(), unknowns.end(), [&](const Unknown& one) {
+      fixed_.meshed() && std::ranges::any_of(unknowns, [&](const Unknown& one) {
         return one.what == Unknown::What::key && shape_at(one, one.low) != shape_at(one, one.high);
       });
 }
@@ -286,7 +284,7 @@ bool ScenarioCurve::run(std::span<const double> u, std::span<double> out) {
       return false;
     }
     // The last pair whose left row is not beyond `at`; of two rows at the same x the later counts.
-    const auto right = std::min(std::upper_bound(x.begin(), x.end(), at), x.end() - 1);
+    const auto right = std::min(std::ranges::upper_bound(x, at), x.end() - 1);
     const auto k = as_index(right - x.begin());
     const double part = (at - x[k - 1]) / (x[k] - x[k - 1]);
     const double before = grows ? even(model->y[k - 1]) : model->y[k - 1];
@@ -366,8 +364,8 @@ std::optional<ClosedCurve> ScenarioCurve::formula() const {
     }
   }
   for (const Unknown& unknown : unknowns_) {
-    const auto slot = std::find_if(slots.begin(), slots.end(),
-                                   [&](const auto& one) { return one.first == unknown.key; });
+    const auto slot =
+        std::ranges::find_if(slots, [&](const auto& one) { return one.first == unknown.key; });
     if (slot == slots.end()) return std::nullopt;
     curve.slot_of.push_back(slot->second);
   }
@@ -456,7 +454,7 @@ DefaultBody default_body(ScenarioCurve& curve, const scenario::Family& family,
   const auto on_half = ScenarioCurve(curve.kind(), std::move(half), family, {}).rows({});
   if (on_block && on_half && on_block->y.size() == on_half->y.size()) {
     // Over time the last row may be after the finger has left the body.
-    const auto largest = std::max_element(on_half->y.begin(), on_half->y.end());
+    const auto largest = std::ranges::max_element(on_half->y);
     const double on_this = on_block->y[as_index(largest - on_half->y.begin())];
     const double more = *largest > 0.0 ? on_this / *largest - 1.0 : 0.0;
     if (std::abs(more) > 0.02) {

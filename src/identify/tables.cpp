@@ -16,7 +16,7 @@
 namespace palpate::identify {
 
 bool is_exact(const Identification& found) {
-  const auto [least, most] = std::minmax_element(found.measured.begin(), found.measured.end());
+  const auto [least, most] = std::ranges::minmax_element(found.measured);
   return found.rmse < 1e-6 * (*most - *least);
 }
 
@@ -245,33 +245,32 @@ std::vector<std::string> warnings_of(const Identification& found,
         found.durbin_watson, found.x.size(),
         found.rho > 0.0 ? found.effective_size : static_cast<double>(found.x.size())));
   if (found.r2 < 0.9)
-    warnings.push_back("R^2 is " + rounded_text(found.r2, 3) +
-                       ", so that the model describes the curve poorly, and the estimates mean "
-                       "little");
+    warnings.push_back(
+        "R^2 is " + rounded_text(found.r2, 3) +
+        ", so that the model describes the curve poorly, and the estimates mean little");
   std::vector<std::string> inseparable;
   for (const Identified& one : found.unknowns)
     if (one.inseparable) inseparable.push_back("`" + one.unknown.name() + "`");
   if (!inseparable.empty())
-    warnings.push_back(
-        joined(inseparable, " and ") +
-        (inseparable.size() > 1 ? " have no numbers" : " has no number") +
-        ": these data do not tell; give one by `--set` or `--given`, or add a test that "
-        "differs, such as another radius or thickness, by `--with`");
+    warnings.push_back(joined(inseparable, " and ") +
+                       (inseparable.size() > 1 ? " have no numbers" : " has no number") +
+                       ": these data do not tell; give one by `--set` or `--given`, or add a test "
+                       "that differs, such as another radius or thickness, by `--with`");
   for (const Identified& one : found.unknowns)
     if (one.at_bound)
-      warnings.push_back("the best `" + one.unknown.name() +
-                         "` is on the edge of its range; widen the range, or hold it there with "
-                         "`--set`");
+      warnings.push_back(
+          "the best `" + one.unknown.name() +
+          "` is on the edge of its range; widen the range, or hold it there with `--set`");
   for (const Identification* one : views(found))
     if (one->predicted_error && *one->predicted_error > with.solver.tolerance)
-      warnings.push_back("the estimated error of " + computed_by(*one) + " is " +
-                         percent_text(*one->predicted_error) +
-                         " here, and the estimates are wrong by about as much" +
-                         (one->given ? "; leave `solver.model` to `auto`"
-                          : one->scenario.uniform()
-                              ? ""
-                              : "; a search takes no `solid` by itself, which `--set "
-                                "solver.model=solid` does"));
+      warnings.push_back(
+          "the estimated error of " + computed_by(*one) + " is " +
+          percent_text(*one->predicted_error) +
+          " here, and the estimates are wrong by about as much" +
+          (one->given ? "; leave `solver.model` to `auto`"
+           : one->scenario.uniform()
+               ? ""
+               : "; a search takes no `solid` by itself, which `--set solver.model=solid` does"));
   const auto waves = inertia_of_flow(with);
   if (waves && *waves > 0.01 && !about(with.solver.integrator).inertia)
     warnings.push_back("waves in the specimen change its deformation by about " +
@@ -321,7 +320,7 @@ std::string figure_words(const std::string& name) {
 std::string command_of(const std::vector<std::string>& argv, std::span<const PairFiles> pairs) {
   const auto file_of = [&](const std::string& word) {
     const std::string name = std::filesystem::path(word).filename().string();
-    const bool known = std::any_of(pairs.begin(), pairs.end(), [&](const PairFiles& pair) {
+    const bool known = std::ranges::any_of(pairs, [&](const PairFiles& pair) {
       return word == pair.measured || name == pair.family->inputs.front().name;
     });
     return known ? name : word;
@@ -393,13 +392,13 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
              page::folded("The scenario with the estimates, " + name, read_text(folder.file(name)));
   }
   page.section("Scenario", asked, folded);
-  page.section("How it was made",
-               page::making({.command = command,
-                             .note = "It runs where the files below lie. Here, `palpate run "
-                                     "scenario" +
-                                     suffix_of(found, 0) + ".toml` computes the fitted curve."},
-                            inputs),
-               folded);
+  page.section(
+      "How it was made",
+      page::making({.command = command,
+                    .note = "It runs where the files below lie. Here, `palpate run scenario" +
+                            suffix_of(found, 0) + ".toml` computes the fitted curve."},
+                   inputs),
+      folded);
   page::write(std::move(page), folder);
 }
 
@@ -417,8 +416,8 @@ std::vector<std::string> write_identification(const Identification& found,
     const std::string suffix = suffix_of(found, k);
     folder.write("scenario" + suffix + ".toml", echo_of(*all[k], *pairs[k].family));
     for (const scenario::InputFile& input : pairs[k].family->inputs) {
-      const bool known = std::any_of(read.begin(), read.end(),
-                                     [&](const auto& one) { return one.name == input.name; });
+      const bool known =
+          std::ranges::any_of(read, [&](const auto& one) { return one.name == input.name; });
       if (known) continue;
       if (&input != &pairs[k].family->inputs.front()) folder.write(input.name, input.content);
       read.push_back(input);
@@ -488,7 +487,7 @@ double largest_residual(const Identification& found) {
 
 // Whether the values are positive but for some noise, which needs no tick below zero.
 bool noise_about_zero(const Identification& found) {
-  const auto [low, high] = std::minmax_element(found.measured.begin(), found.measured.end());
+  const auto [low, high] = std::ranges::minmax_element(found.measured);
   return low != found.measured.end() && *low < 0.0 && -*low < *high / 20.0;
 }
 

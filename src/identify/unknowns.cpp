@@ -74,26 +74,25 @@ scenario::NumericKey find_key(const std::string& text, const std::string& name,
                               const std::vector<scenario::NumericKey>& keys) {
   for (const Extra& extra : extras())
     if (name == extra.name) return {name, extra.unit, extra.range, {}};
-  const auto known =
-      std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.path == name; });
+  const auto known = std::ranges::find_if(keys, [&](const auto& key) { return key.path == name; });
   if (known == keys.end()) {
     std::vector<std::string> names;
     for (const Extra& extra : extras()) names.emplace_back(extra.name);
     for (const auto& key : keys) names.push_back(key.path);
-    const auto begun = std::find_if(names.begin(), names.end(),
-                                    [&](const std::string& one) { return one.starts_with(name); });
+    const auto begun =
+        std::ranges::find_if(names, [&](const std::string& one) { return one.starts_with(name); });
     std::optional<std::string> near = begun != names.end() ? *begun : nearest(name, names);
     if (!near) {  // without the table before it: `yong_modulus`
       std::vector<std::string> last;
       for (const std::string& one : names) last.push_back(one.substr(one.rfind('.') + 1));
       if (const auto part = nearest(name, last))
-        near = names[as_index(std::find(last.begin(), last.end(), *part) - last.begin())];
+        near = names[as_index(std::ranges::find(last, *part) - last.begin())];
     }
-    refuse(text, "names no number of this scenario" +
-                     (near ? "; did you mean `" + *near + "`?"
-                           : "; `palpate manual` lists the keys, and `contact_point`, "
-                             "`force_offset`, `force_tilt`, `force_gain` and `force_delay` are "
-                             "accepted too"));
+    refuse(text,
+           "names no number of this scenario" +
+               (near ? "; did you mean `" + *near + "`?"
+                     : "; `palpate manual` lists the keys, and `contact_point`, `force_offset`, "
+                       "`force_tilt`, `force_gain` and `force_delay` are accepted too"));
   }
   if (!known->use.used)
     refuse(text, "names a key that is used " + known->use.when +
@@ -162,8 +161,8 @@ using Keys = std::vector<scenario::NumericKey>;
 bool knows(const Keys& keys, const std::string& name) {
   for (const Extra& extra : extras())
     if (name == extra.name) return true;
-  return std::any_of(keys.begin(), keys.end(),
-                     [&](const auto& key) { return key.path == name && key.use.used; });
+  return std::ranges::any_of(keys,
+                             [&](const auto& key) { return key.path == name && key.use.used; });
 }
 
 // The pairs that `word` behind `@` names: a number, `each` or `all`; empty: by the key's nature.
@@ -174,8 +173,8 @@ std::vector<std::vector<std::size_t>> pairs_of(const std::string& text, const st
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (knows(keys[k], key)) all.push_back(k);
   if (all.empty()) all = {0};
-  const bool extra = std::any_of(extras().begin(), extras().end(),
-                                 [&](const Extra& one) { return key == one.name; });
+  const bool extra =
+      std::ranges::any_of(extras(), [&](const Extra& one) { return key == one.name; });
   std::vector<std::vector<std::size_t>> each;
   for (const std::size_t k : all) each.push_back({k});
   if (word.empty()) return extra ? each : std::vector<std::vector<std::size_t>>{all};
@@ -209,8 +208,8 @@ std::vector<Unknown> read_unknowns(const std::vector<std::string>& texts,
       one.pairs = pairs;
       one.separate = scenarios.size() > 1 && pairs.size() == 1;
       for (const Unknown& other : unknowns)
-        if (other.key == one.key && std::any_of(pairs.begin(), pairs.end(), [&](std::size_t k) {
-              return std::find(other.pairs.begin(), other.pairs.end(), k) != other.pairs.end();
+        if (other.key == one.key && std::ranges::any_of(pairs, [&](std::size_t k) {
+              return std::ranges::find(other.pairs, k) != other.pairs.end();
             }))
           refuse(text, "is given twice; keep one of the two ranges");
       unknowns.push_back(std::move(one));
@@ -251,8 +250,7 @@ Given read_given(const std::string& text, const std::vector<scenario::NumericKey
   if (equals == std::string::npos || sign == std::string::npos || sign < equals)
     refuse_given(text, remedy);
   const std::string key = trimmed(text.substr(0, equals));
-  const auto known =
-      std::find_if(keys.begin(), keys.end(), [&](const auto& one) { return one.path == key; });
+  const auto known = std::ranges::find_if(keys, [&](const auto& one) { return one.path == key; });
   if (known == keys.end()) {
     std::vector<std::string> names;
     for (const auto& one : keys) names.push_back(one.path);

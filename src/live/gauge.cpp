@@ -130,10 +130,9 @@ class GaugeLoop {
     const double lasts = time_of(sample) - time_of(low_.front());
     if (lasts > planned_) return rested(low_);
     if (low_.size() < 3 || lasts < fall_time || fall < beginning()) return;
-    ends({LiveEnd::Why::link,
-          "the force fell by " + rounded_text(1e3 * fall, 3) +
-              " mN below that at rest; turn the gauge's sign by a negative `force_scale`, or begin "
-              "with the finger out of contact"});
+    ends({LiveEnd::Why::link, "the force fell by " + rounded_text(1e3 * fall, 3) +
+                                  " mN below that at rest; turn the gauge's sign by a negative "
+                                  "`force_scale`, or begin with the finger out of contact"});
   }
 
   // Without travel the time of the loading history begins with the contact: where a line through

@@ -147,9 +147,9 @@ void Live::refuse_inside(std::vector<std::string>& lines) {
   const device::Sample sample = link_.sample(wait);
   const double depth = *options_->surface - sample.position.z();
   if (sample.arrival != device::Arrival::fresh || !(depth > 0.0)) return;
-  const std::string sentence = "the finger is " + milli(depth) +
-                               " inside the tissue; move it out and begin again, or give another "
-                               "`--surface`";
+  const std::string sentence =
+      "the finger is " + milli(depth) +
+      " inside the tissue; move it out and begin again, or give another `--surface`";
   if (options_->act == LiveOptions::Act::command)
     throw LinkError("palpate: " + options_->link + ": " + sentence);
   lines.push_back(sentence);

@@ -99,7 +99,7 @@ bool LiveLog::write_rows() {
     const std::size_t header = has_header_ ? table.find('\n') + 1 : 0;
     const std::string_view text = std::string_view(table).substr(header);
     const std::string_view taken = text.substr(0, rows_file_.append(text));
-    auto lines = as_index(std::count(taken.begin(), taken.end(), '\n'));
+    auto lines = as_index(std::ranges::count(taken, '\n'));
     if (lines > 0 && !has_header_) --lines;
     has_header_ = has_header_ || !taken.empty();
     in_file_ = taken.size() == text.size() ? end : in_file_ + lines;

@@ -245,10 +245,10 @@ class StandLoop {
       if (felt || std::abs(last_.position.z() - target) <= arrived) {
         if (!loop_.link.stop()) return ends(Trip::not_verified, Fault::not_verified);
         if (!felt || change > 0.0) return true;
-        return ends({LiveEnd::Why::link,
-                     "the force fell by " + rounded_text(-change, 3) +
-                         " N in the press: the gauge shows compression as negative; change its "
-                         "polarity (IPOL), or the way it is mounted"});
+        return ends(
+            {LiveEnd::Why::link, "the force fell by " + rounded_text(-change, 3) +
+                                     " N in the press: the gauge shows compression as negative; "
+                                     "change its polarity (IPOL), or the way it is mounted"});
       }
       if (last_.position.z() != before || halted_) moved_at = now();
       before = last_.position.z();

@@ -72,7 +72,7 @@ SurfaceSearch::Line SurfaceSearch::line(double surface) const {
 
 std::optional<SurfaceSearch::Found> SurfaceSearch::find() const {
   if (time_.size() < 10) return std::nullopt;
-  const auto [low, high] = std::minmax_element(z_.begin(), z_.end());
+  const auto [low, high] = std::ranges::minmax_element(z_);
   constexpr int steps = 200;
   double width = (*high - *low) / steps;
   if (!(width > 0.0)) return std::nullopt;

@@ -99,8 +99,7 @@ class Press {
       const double ratio = travel_.back() > 0.0 ? travel / travel_.back() : 1.0;
       return force_.back() * ratio * std::sqrt(ratio);
     }
-    const auto k =
-        as_index(std::upper_bound(travel_.begin(), travel_.end(), travel) - travel_.begin());
+    const auto k = as_index(std::ranges::upper_bound(travel_, travel) - travel_.begin());
     const double part = (travel - travel_[k - 1]) / (travel_[k] - travel_[k - 1]);
     return force_[k - 1] + part * (force_[k] - force_[k - 1]);
   }
@@ -482,9 +481,7 @@ class Judgement {
 
 }  // namespace
 
-bool Verdict::has(Cause cause) const {
-  return std::find(causes.begin(), causes.end(), cause) != causes.end();
-}
+bool Verdict::has(Cause cause) const { return std::ranges::find(causes, cause) != causes.end(); }
 
 MeasuredCurve measured_curve(const record::CaseRecord& record,
                              const std::vector<scenario::Step>& steps, std::span<const double> free,
@@ -546,8 +543,7 @@ std::string cause_clause(Cause cause, const Verdict& verdict) {
       return "another stiffness: the specimen's force is " +
              rounded_text(std::abs(verdict.stiffness), 3) +
              " times the model's; `palpate identify` estimates its properties, if the gauge's unit "
-             "is "
-             "right";
+             "is right";
     case Cause::outliers:
       return "outliers: " + std::to_string(verdict.outliers) +
              (verdict.outliers == 1 ? " reading is" : " readings are") +
@@ -557,8 +553,7 @@ std::string cause_clause(Cause cause, const Verdict& verdict) {
              " during the run; let it warm up, and zero it out of contact";
     case Cause::friction:
       return "friction: " + millinewtons(verdict.friction) +
-             " along the motion, added on the way in and taken off on the way out; see what "
-             "rubs";
+             " along the motion, added on the way in and taken off on the way out; see what rubs";
     case Cause::lag:
       return "lag: the force is shown " + text_of(1e3 * verdict.lag) +
              " ms late; shorten the gauge's filter, or press slower";
@@ -610,8 +605,8 @@ std::string verdict_sentence(const Verdict& verdict) {
     text += "; no single fault of gauge, stand or specimen explains it";
   else if (!verdict.sure)
     text +=
-        "; that leaves more than half of what is allowed, so that it cannot be told from "
-        "another relaxation of the specimen or from two faults at once";
+        "; that leaves more than half of what is allowed, so that it cannot be told from another "
+        "relaxation of the specimen or from two faults at once";
   return text;
 }
 

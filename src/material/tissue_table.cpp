@@ -61,7 +61,7 @@ void require(const Node& table, const std::string& name, const Place& place,
     for (const Problem& problem : problems)
       if (problem.place == member.place) unknown.push_back(member.key);
   const auto is_unknown = [&](const std::string& key) {
-    return std::find(unknown.begin(), unknown.end(), key) != unknown.end();
+    return std::ranges::find(unknown, key) != unknown.end();
   };
   for (const char* key : {"density", "young_modulus", "poisson_ratio"}) {
     if (table.find(key) == nullptr && !nearest(key, unknown))
@@ -71,9 +71,9 @@ void require(const Node& table, const std::string& name, const Place& place,
   for (const Member& member : table.members) {
     if (member.value.kind != Node::Kind::table || is_unknown(member.key)) continue;
     if (member.value.find("value") == nullptr)
-      problems.push_back({member.place, "`" + member.key +
-                                            "` lacks `value`; write `{ value = ..., "
-                                            "source = \"...\" }`"});
+      problems.push_back(
+          {member.place,
+           "`" + member.key + "` lacks `value`; write `{ value = ..., source = \"...\" }`"});
   }
 }
 

@@ -285,14 +285,14 @@ std::size_t only_column(const RawTable& table, const DataLayout& layout, Role ro
         if (names[i] == usual) return i;
   std::vector<std::size_t> numeric;  // columns of words are no curve, nor are empty ones
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (std::any_of(table.rows.begin(), table.rows.end(), [&](const RawRow& row) {
+    if (std::ranges::any_of(table.rows, [&](const RawRow& row) {
           const auto number = measured_number(row.fields[i].text, table.decimal);
           return number && std::isfinite(*number);
         }))
       numeric.push_back(i);
   for (std::size_t i = 0; i < names.size() && numeric.size() < 2; ++i)
     if (const Piece& word = table.rows.front().fields[i];
-        std::find(numeric.begin(), numeric.end(), i) == numeric.end())
+        std::ranges::find(numeric, i) == numeric.end())
       throw InputError({table.file, table.rows.front().line, word.column},
                        "`" + names[i] + "` holds `" + word.text + "`, " + why_no_number(word.text));
   if (numeric.size() == 2) {
@@ -348,11 +348,11 @@ std::size_t named_index(const RawTable& table, const std::string& word, const st
                          word + "` is not among them; columns count from 1");
   }
   if (table.names.empty())
-    throw InputError({table.file, table.rows.front().line, 0},
-                     "the numbers begin here without names of columns above, so that there is no "
-                     "column `" +
-                         word + "`; give a column's number, as `" + asked +
-                         " 1`, or `--skip` the lines above the names");
+    throw InputError(
+        {table.file, table.rows.front().line, 0},
+        "the numbers begin here without names of columns above, so that there is no column `" +
+            word + "`; give a column's number, as `" + asked +
+            " 1`, or `--skip` the lines above the names");
   throw InputError(
       {table.file, table.header_line, 0},
       "has no column `" + word + "`; " +
@@ -376,7 +376,7 @@ enum class Part { approach, retract, pause, other };
 Part part_of(const std::string& cell) {
   const std::string held = lower_case(cell);
   const auto one_of = [&](std::initializer_list<const char*> words) {
-    return std::any_of(words.begin(), words.end(), [&](const char* word) { return held == word; });
+    return std::ranges::any_of(words, [&](const char* word) { return held == word; });
   };
   if (one_of({"approach", "extend", "extension", "loading", "load", "forward", "trace", "advance",
               "indent", "indentation", "compress", "compression", "down", "in", "approaching"}))
@@ -549,9 +549,8 @@ std::optional<std::size_t> segment_column(const RawTable& table) {
     if (const auto found = columns_named(table, name); found.size() == 1) return found.front();
   std::optional<std::size_t> only;
   for (std::size_t i = 0; i < table.width(); ++i) {
-    const bool words = std::all_of(table.rows.begin(), table.rows.end(), [&](const RawRow& row) {
-      return part_of(row.fields[i].text) != Part::other;
-    });
+    const bool words = std::ranges::all_of(
+        table.rows, [&](const RawRow& row) { return part_of(row.fields[i].text) != Part::other; });
     if (words && only) return std::nullopt;
     if (words) only = i;
   }
@@ -572,7 +571,7 @@ void keep_usual(const RawTable& table, const Axes& axes, const std::string& usua
     const std::string& cell = table.rows[i].fields[*column].text;
     return flags ? is_segment(cell, usual) : part_of(cell) == part;
   };
-  const auto taken = std::count_if(rows.kept.begin(), rows.kept.end(), wanted);
+  const auto taken = std::ranges::count_if(rows.kept, wanted);
   const std::size_t all = rows.kept.size();
   if (taken == 0 || as_index(taken) == all) return;
   DataLayout layout;
@@ -632,12 +631,11 @@ bool only_retracts(std::span<const double> x, std::span<const double> load) {
     way.push_back(std::abs(x[i] - x[*first]));
     change.push_back(std::abs(load[i] - load[*first]));
   }
-  if (way.size() < 4 || way.back() < 0.9 * *std::max_element(way.begin(), way.end())) return false;
+  if (way.size() < 4 || way.back() < 0.9 * *std::ranges::max_element(way)) return false;
   if (!(std::abs(load[*first]) > std::abs(load[last]))) return false;
-  const auto most = std::max_element(change.begin(), change.end());
-  const auto half = std::find_if(way.begin(), way.end(), [&](double each) {
-    return each >= 0.5 * way[as_index(most - change.begin())];
-  });
+  const auto most = std::ranges::max_element(change);
+  const auto half = std::ranges::find_if(
+      way, [&](double each) { return each >= 0.5 * way[as_index(most - change.begin())]; });
   return change[as_index(half - way.begin())] > 0.5 * *most;
 }
 

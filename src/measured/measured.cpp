@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/index.h"
 #include "base/text.h"
 #include "measured/columns.h"
 #include "measured/table.h"
@@ -98,8 +97,7 @@ void take(MeasuredCurve& curve, const RawTable& table, const DataLayout& layout)
     }
   }
   // A column named as a stretch may hold strains, which begin near 0 and not near 1.
-  const auto first =
-      std::find_if(curve.x.begin(), curve.x.end(), [](double each) { return std::isfinite(each); });
+  const auto first = std::ranges::find_if(curve.x, [](double each) { return std::isfinite(each); });
   if (first != curve.x.end() && *first < 0.3) curve.x_axis.stretch = false;
   if (x.falls) curve.notes.push_back("`" + x.name + "` falls as the tip goes in; taken as a depth");
   curve.notes.insert(curve.notes.end(), rows.notes.begin(), rows.notes.end());
@@ -193,10 +191,10 @@ void take_off_drift(MeasuredCurve& curve, const RawTable& table, const DataLayou
   const End last = end_of(rows.rbegin(), rows.rend());
   const bool free = std::abs(rows.front().x - rows.back().x) <= 0.2 * (high - low);
   if (!free || first.n < 5 || last.n < 5 || !(last.t > first.t))
-    throw InputError({curve.file, 0, 0},
-                     "does not begin and end at the same place with five rows there, so that two "
-                     "free ends are not known; leave `--drift` out, or give `--baseline-from` and "
-                     "`--baseline-to`");
+    throw InputError(
+        {curve.file, 0, 0},
+        "does not begin and end at the same place with five rows there, so that two free ends are "
+        "not known; leave `--drift` out, or give `--baseline-from` and `--baseline-to`");
   const double rate = (last.y - first.y) / (last.t - first.t);
   double most = 0.0;
   for (const Row& row : rows) most = std::max(most, std::abs(row.y - first.y));
@@ -253,9 +251,8 @@ Span span_of(const std::vector<double>& values, double start) {
         "`" + curve.y_axis.column + "` is the same at every point; name another column with `--y`");
   throw InputError({curve.file, 0, 0},
                    "`" + curve.y_axis.column +
-                       "` both rises and falls from its start, so that "
-                       "its sign in compression is not clear; give `--compression positive` or "
-                       "`--compression negative`");
+                       "` both rises and falls from its start, so that its sign in compression is "
+                       "not clear; give `--compression positive` or `--compression negative`");
 }
 
 // Whether the load is negative in compression.

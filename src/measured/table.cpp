@@ -352,9 +352,8 @@ class Reader {
         table_.rows.front().fields[0].text + "," + table_.rows.front().fields[1].text;
     refuse(table_.rows.front().line, 1,
            "`" + example +
-               "` could be two whole numbers or one with a decimal comma; give "
-               "`--separator ,` for the first, and save the table with semicolons for "
-               "the second");
+               "` could be two whole numbers or one with a decimal comma; give `--separator ,` for "
+               "the first, and save the table with semicolons for the second");
   }
 
   std::span<const Line> lines_;
@@ -469,7 +468,7 @@ LvmCells take_lvm_headings(std::vector<Line>& lines, const std::string& file) {
   });
   std::ptrdiff_t tabs = 0;  // of the names; rows without a comment have one less
   for (Line& line : lines) {
-    const auto here = std::count(line.text.begin(), line.text.end(), '\t');
+    const auto here = std::ranges::count(line.text, '\t');
     if (line.text.starts_with("X_Value\t")) tabs = here;
     if (here > 0 && here < tabs) line.text.append(as_index(tabs - here), '\t');
   }
@@ -486,8 +485,8 @@ void finish_lvm(RawTable& table, const LvmCells& cells) {
   for (std::size_t i = table.width(); i-- > 0;) {
     const bool time = table.names[i] == "X_Value" && cell(cells.dimensions, i + 1) == "Time";
     table.units[i] = time ? "s" : i > 0 ? cell(cells.units, i) : "";
-    if (!std::all_of(table.rows.begin(), table.rows.end(),
-                     [&](const RawRow& row) { return row.fields[i].text.empty(); }))
+    if (!std::ranges::all_of(table.rows,
+                             [&](const RawRow& row) { return row.fields[i].text.empty(); }))
       continue;
     const auto at = static_cast<std::ptrdiff_t>(i);
     table.names.erase(table.names.begin() + at);

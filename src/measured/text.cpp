@@ -40,8 +40,7 @@ std::uint32_t at(std::string_view bytes, std::size_t i) {
 std::string from_utf16(std::string_view bytes, std::size_t high, const std::string& file) {
   if (bytes.size() % 2 != 0)
     throw InputError({file, 0, 0},
-                     "begins as UTF-16 and ends in half a character; save it as "
-                     "UTF-8");
+                     "begins as UTF-16 and ends in half a character; save it as UTF-8");
   std::string text;
   const auto unit = [&](std::size_t i) {
     return (at(bytes, i + high) << 8U) | at(bytes, i + 1 - high);
@@ -74,10 +73,9 @@ void refuse_binary(std::string_view bytes, const std::string& file) {
       Signature{"\x28\xB5\x2F\xFD"sv, "is compressed by zstd; unpack it with `unzstd`"},
       Signature{"7z\xBC\xAF\x27\x1C"sv, "is a 7z archive; unpack it with `7z x`"},
       Signature{"Rar!"sv, "is a RAR archive; unpack it with `unrar x`"},
-      Signature{
-          "PK\x03\x04"sv,
-          "is a ZIP archive, as are .xlsx workbooks and .jpk-force files; export the curve as "
-          "text (a workbook as CSV; JPK's Data Processing: Export, Text)"},
+      Signature{"PK\x03\x04"sv,
+                "is a ZIP archive, as are .xlsx workbooks and .jpk-force files; export the curve "
+                "as text (a workbook as CSV; JPK's Data Processing: Export, Text)"},
       Signature{"\x89HDF"sv,
                 "is an HDF5 file; export the columns as CSV (afmformats writes curves as .tab)"},
       Signature{"\xD0\xCF\x11\xE0"sv, "is an old Office document (.xls); save it as CSV"},
@@ -190,10 +188,10 @@ char decimal_of(const std::string& word) {
 bool tabs_separate(const Line& line, const std::string& file) {
   if (line.text.find('\t') == std::string::npos) return false;
   const std::vector<Piece> pieces = pieces_of(line, '\t', file);
-  return std::any_of(pieces.begin(), pieces.end(), [](const Piece& piece) {
+  return std::ranges::any_of(pieces, [](const Piece& piece) {
     return piece.text.find(' ') != std::string::npos &&
-           std::any_of(piece.text.begin(), piece.text.end(),
-                       [](unsigned char each) { return std::isalpha(each) != 0; });
+           std::ranges::any_of(piece.text,
+                               [](unsigned char each) { return std::isalpha(each) != 0; });
   });
 }
 
@@ -255,13 +253,13 @@ void refuse_thousands(std::span<const Line> lines, const Shape& shape, const std
   }
   if (example.empty()) return;
   std::string point = example;
-  std::replace(point.begin(), point.end(), ',', '.');
+  std::ranges::replace(point, ',', '.');
   std::string whole = example;
   std::erase(whole, ',');
-  throw InputError(place, "`" + example + "` could be " + point + " or " + whole +
-                              ", and no other number of the file decides this; give `--decimal ,`, "
-                              "or save the numbers with points and without marks between "
-                              "thousands");
+  throw InputError(place,
+                   "`" + example + "` could be " + point + " or " + whole +
+                       ", and no other number of the file decides this; give `--decimal ,`, or "
+                       "save the numbers with points and without marks between thousands");
 }
 
 // A line of numbers such as `1.500,25;-476,5`, whose commas separate no columns, is refused.

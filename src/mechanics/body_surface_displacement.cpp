@@ -218,64 +218,74 @@ void BodySurfaceDisplacement::spread(const contact::Patch& patch) {
     if (weights[k] > stated) shares_[k] = {&at_vertex(patch, k), weights[k]};
 }
 
-// Calls add(place, k, weight, product, slope, fading) for every place and its k-th radius:
-// `product` is Lagrange's polynomial of that radius, and `slope` its derivative. Outside of the
-// table a value goes on with the slope at its end, which decays: product + slope * (1 - fading).
-template <class Add>
-void BodySurfaceDisplacement::at_radius(const contact::Patch& patch, const Add& add) {
-  const double ratio = patch.radius() / largest_;
+// On a crease the value changes from one side's to the other's as the perpendicular turns.
+std::span<const BodySurfaceDisplacement::Side> BodySurfaceDisplacement::sides_of(
+    const contact::Patch& patch) {
+  sides_.fill({patch, 1.0});
+  if (!(patch.turned > 0.0)) return std::span(sides_).first(1);
+  sides_[1].patch.at = patch.beyond;
+  sides_[0].part = 1.0 - patch.turned;
+  sides_[1].part = patch.turned;
+  return sides_;
+}
+
+BodySurfaceDisplacement::Polynomials BodySurfaceDisplacement::polynomials(double ratio) {
   const double x = std::min(ratio, steps.back());
-  const double fading = std::exp(x - ratio);
-  const auto add_side = [&](const contact::Patch& side, double part) {
-    spread(side);
-    for (const Share& share : shares_) {
-      if (share.place == nullptr) continue;
-      for (std::size_t k = 0; k < radii; ++k) {
-        double product = 1.0;
-        double slope = 0.0;
-        for (std::size_t j = 0; j < radii; ++j) {
-          if (j == k) continue;
-          const double gap = steps[k] - steps[j];
-          slope = (slope * (x - steps[j]) + product) / gap;
-          product *= (x - steps[j]) / gap;
-        }
-        add(*share.place, k, part * share.weight, product, slope, fading);
-      }
+  Polynomials at{.fading = std::exp(x - ratio)};
+  for (std::size_t k = 0; k < radii; ++k) {
+    double product = 1.0;
+    double slope = 0.0;
+    for (std::size_t j = 0; j < radii; ++j) {
+      if (j == k) continue;
+      const double gap = steps[k] - steps[j];
+      slope = (slope * (x - steps[j]) + product) / gap;
+      product *= (x - steps[j]) / gap;
     }
-  };
-  if (!(patch.turned > 0.0)) return add_side(patch, 1.0);
-  // On a crease the value changes from one side's to the other's as the perpendicular turns.
-  contact::Patch beyond = patch;
-  beyond.at = patch.beyond;
-  add_side(patch, 1.0 - patch.turned);
-  add_side(beyond, patch.turned);
+    at.product[k] = product;
+    at.slope[k] = slope;
+    at.value[k] = product + slope * (1.0 - at.fading);
+  }
+  return at;
 }
 
 BodySurfaceDisplacement::Value BodySurfaceDisplacement::at(const contact::Patch& patch) {
   Value value;
-  at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
-                       double slope, double fading) {
-    const double surface_displacement = place.surface_displacement[k] / modulus_;
-    value.surface_displacement +=
-        weight * (product + slope * (1.0 - fading)) * surface_displacement;
-    value.slope += weight * slope * fading / largest_ * surface_displacement;
-    value.error += weight * product * place.error[k] / modulus_;
-    value.doubt += weight * product * place.doubt[k] / modulus_;
-  });
+  const Polynomials over_radius = polynomials(patch.radius() / largest_);
+  for (const auto& [side, part] : sides_of(patch)) {
+    spread(side);
+    for (const auto& [place, share] : shares_) {
+      if (place == nullptr) continue;
+      const double weight = part * share;
+      for (std::size_t k = 0; k < radii; ++k) {
+        const double surface_displacement = place->surface_displacement[k] / modulus_;
+        value.surface_displacement += weight * over_radius.value[k] * surface_displacement;
+        value.slope +=
+            weight * over_radius.slope[k] * over_radius.fading / largest_ * surface_displacement;
+        value.error += weight * over_radius.product[k] * place->error[k] / modulus_;
+        value.doubt += weight * over_radius.product[k] * place->doubt[k] / modulus_;
+      }
+    }
+  }
   return value;
 }
 
 Eigen::Matrix3d BodySurfaceDisplacement::shear(const contact::Patch& patch) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   if (!rubs_) return sum;
-  at_radius(patch, [&](const Place& place, std::size_t k, double weight, double product,
-                       double slope, double fading) {
-    // The shortest rotation between the normals.                    docs/theory.md [between]
-    const Eigen::Matrix3d turn =
-        Eigen::Matrix3d::Identity() - (patch.normal + place.normal) * patch.normal.transpose() /
-                                          (1.0 + patch.normal.dot(place.normal));
-    sum += weight * (product + slope * (1.0 - fading)) * turn * place.shear[k] * turn.transpose();
-  });
+  const Polynomials over_radius = polynomials(patch.radius() / largest_);
+  for (const auto& [side, part] : sides_of(patch)) {
+    spread(side);
+    for (const auto& [place, share] : shares_) {
+      if (place == nullptr) continue;
+      // The shortest rotation between the normals.                  docs/theory.md [between]
+      const Eigen::Matrix3d turn =
+          Eigen::Matrix3d::Identity() - (patch.normal + place->normal) * patch.normal.transpose() /
+                                            (1.0 + patch.normal.dot(place->normal));
+      const double weight = part * share;
+      for (std::size_t k = 0; k < radii; ++k)
+        sum += weight * over_radius.value[k] * turn * place->shear[k] * turn.transpose();
+    }
+  }
   sum /= modulus_;
   return sum;
 }
@@ -315,7 +325,7 @@ void BodySurfaceDisplacement::make_ready(double reach) {
   spread(patch);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     patch.at.triangle = static_cast<int>(t);
-    const bool near = std::any_of(triangles[t].begin(), triangles[t].end(), [&](int vertex) {
+    const bool near = std::ranges::any_of(triangles[t], [&](int vertex) {
       return (surface_->surface().vertices[as_index(vertex)] - middle).norm() <= reach;
     });
     for (std::size_t k = 0; near && k < 3; ++k) (void)at_vertex(patch, k);

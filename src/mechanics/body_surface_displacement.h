@@ -1,7 +1,6 @@
 // The surface displacement beyond a half-space's at any place and for any contact radius.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -63,8 +62,19 @@ class BodySurfaceDisplacement {
     const Place* place = nullptr;
     double weight = 0.0;
   };
-  template <class Add>
-  void at_radius(const contact::Patch& patch, const Add& add);
+  // A side of a crease; the only one beside none.
+  struct Side {
+    contact::Patch patch;
+    double part = 1.0;
+  };
+  [[nodiscard]] std::span<const Side> sides_of(const contact::Patch& patch);
+  // Lagrange's polynomials of the radii and their derivatives. Outside of the table a value goes on
+  // with the slope at its end, which decays: product + slope * (1 - fading).
+  struct Polynomials {
+    std::array<double, radii> product{}, slope{}, value{};
+    double fading = 1.0;
+  };
+  [[nodiscard]] static Polynomials polynomials(double ratio);
   [[nodiscard]] std::string key() const;
   void make_couplings();
   [[nodiscard]] static std::array<EnergyCoupling::Press, 3> shear_presses(
@@ -96,6 +106,7 @@ class BodySurfaceDisplacement {
   std::optional<Place> at_first_;
   // Per vertex, one place for each smooth side of its creases.
   std::map<int, std::vector<std::pair<Vec3, Place>>> at_vertices_;
+  std::array<Side, 2> sides_;
   std::array<Share, 4> shares_;
 };
 

@@ -26,7 +26,7 @@ class KeptList {
   KeptList& operator=(const KeptList& other) {
     if (this == &other) return *this;
     resize(other.size_);
-    std::copy(other.begin(), other.end(), begin());
+    std::ranges::copy(other, begin());
     return *this;
   }
   // Both lists keep the memory of their elements.

@@ -9,7 +9,6 @@
 
 #include "contact/hertz.h"
 #include "mechanics/monitor.h"
-#include "mechanics/surface_contacts.h"
 #include "scenario/integrators.h"
 #include "scene/time_plan.h"
 

@@ -3,16 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <list>
-#include <map>
 #include <numbers>
 
 #include "base/error.h"
 #include "scenario/model_traits.h"
-#include "tissue/coupled.h"
 
 namespace palpate::mechanics {
 
@@ -63,7 +60,7 @@ class EnergyCoupling::Loads {
     normal_ = axes_.transpose() * face.normal;
     // The plane of the contact is free of stress outside the patch.
     const double flat = 1e-9 * (corners[1] - corners[0]).norm();
-    if (!face.interface && std::all_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+    if (!face.interface && std::ranges::all_of(corners, [&](const Vec3& corner) {
           return std::abs(corner.z()) <= flat;
         }))
       return;
@@ -224,7 +221,7 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
     std::array<int, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k)
       corners[k] = number[as_index(specimen.mesh.tetrahedra[t][k])];
-    if (*std::min_element(corners.begin(), corners.end()) < 0) continue;
+    if (*std::ranges::min_element(corners) < 0) continue;
     mesh_.tetrahedra.push_back(corners);
     mesh_.regions.push_back(specimen.mesh.region(static_cast<int>(t)));
   }
@@ -233,7 +230,7 @@ EnergyCoupling::EnergyCoupling(const scene::Scene& scene, const tissue::Part& pa
     std::array<int, 3> nodes{};
     for (std::size_t k = 0; k < 3; ++k)
       nodes[k] = number[as_index(specimen.outer_surface[as_index(triangle[k])])];
-    std::sort(nodes.begin(), nodes.end());
+    std::ranges::sort(nodes);
     triangle_of_[nodes] = static_cast<int>(surface_triangles_.size());
     surface_triangles_.push_back(nodes);
   }
@@ -303,9 +300,7 @@ void EnergyCoupling::find_tissues(const scene::Scene& scene, double unit) {
 
 int EnergyCoupling::region_under(int triangle) const {
   const std::array<int, 3>& key = surface_triangles_[as_index(triangle)];
-  const auto found = std::lower_bound(
-      uses_.begin(), uses_.end(), key,
-      [](const geometry::FaceUse& use, const auto& wanted) { return use.key < wanted; });
+  const auto found = std::ranges::lower_bound(uses_, key, {}, &geometry::FaceUse::key);
   if (found == uses_.end() || found->key != key) return 0;  // outside the part
   return mesh_.regions[as_index(found->tetrahedron)];
 }
@@ -332,8 +327,8 @@ std::vector<char> EnergyCoupling::hanging_over(const contact::Patch& patch, int 
   bool hangs = false;
   for (std::size_t t = 0; t < away.size(); ++t) {
     const auto& corners = mesh_.tetrahedra[t];
-    const bool over = std::all_of(corners.begin(), corners.end(),
-                                  [&](int node) { return high[as_index(node)] != 0; });
+    const bool over =
+        std::ranges::all_of(corners, [&](int node) { return high[as_index(node)] != 0; });
     hangs = hangs || (over && mesh_.regions[t] == region);
     away[t] = over || mesh_.regions[t] != region ? 1 : 0;
   }
@@ -359,9 +354,8 @@ EnergyCoupling::Home EnergyCoupling::make_home(std::vector<char> away, int regio
     };
     face.normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
     for (std::size_t axis = 0; axis < 3; ++axis)
-      face.held[axis] = std::all_of(own.nodes.begin(), own.nodes.end(), [&](int node) {
-        return held_[3 * as_index(node) + axis] != 0;
-      });
+      face.held[axis] = std::ranges::all_of(
+          own.nodes, [&](int node) { return held_[3 * as_index(node) + axis] != 0; });
     if (const auto outer_surface = triangle_of_.find(own.key);
         !shared && outer_surface != triangle_of_.end()) {
       face.triangle = outer_surface->second;

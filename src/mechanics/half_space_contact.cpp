@@ -1,7 +1,6 @@
 // One contact law, with the same depth for all spheres.
 #include "mechanics/half_space_contact.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/text.h"

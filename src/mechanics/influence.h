@@ -45,7 +45,7 @@ class Influence {
     if (known_.empty()) known_.resize(as_index(part_->freedoms()));
     const auto missing = [&](int freedom) { return known_[as_index(freedom)].size() == 0; };
     if ((response_ != Response::statics && response_ != Response::moving_statics) ||
-        std::none_of(freedoms.begin(), freedoms.end(), missing))
+        std::ranges::none_of(freedoms, missing))
       return;
     std::vector<int> asked;
     std::vector<integrate::Vector> units;

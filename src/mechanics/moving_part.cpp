@@ -94,8 +94,7 @@ std::vector<Eigen::Index> MovingPart::take(tissue::Part next) {
                       state.memory);
   } else {
     for (std::size_t s = 0; s < previous.springs.size(); ++s) {
-      const auto now =
-          std::lower_bound(part.springs.begin(), part.springs.end(), previous.springs[s]);
+      const auto now = std::ranges::lower_bound(part.springs, previous.springs[s]);
       if (now == part.springs.end() || *now != previous.springs[s]) continue;
       body->inherit(old.memory, previous.springs.size(), s, as_index(now - part.springs.begin()),
                     state.memory);

@@ -65,8 +65,7 @@ std::optional<PressedNode> SurfaceNodes::facing(int vertex, const Ball& ball) co
     const Triangle& triangle = triangles_[as_index(t)];
     if (triangle.normal.dot(away) < least_facing * away.norm()) continue;
     const auto& corners = surface_->surface().triangles[as_index(t)];
-    const auto corner =
-        as_index(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+    const auto corner = as_index(std::ranges::find(corners, vertex) - corners.begin());
     area += triangle.area;
     normal += triangle.area * surface_->corner_normal(t, corner);
     // A sphere of radius R through the ends of a straight side s is |s|^2 / (2 R) x_1 x_2 above it,
@@ -207,7 +206,7 @@ std::optional<std::string> ResolvedContact::solve(Influence& influence) {
   while (true) {
     for (Index i = 0; i < count; ++i) {
       const Candidate& one = candidates_[as_index(i)];
-      if (!one.sought || std::find(sought.begin(), sought.end(), i) != sought.end()) continue;
+      if (!one.sought || std::ranges::find(sought, i) != sought.end()) continue;
       sought.push_back(i);
       pressed.push_back(overlaps(one) ? 1 : 0);
       answers.push_back(answer(influence, one));

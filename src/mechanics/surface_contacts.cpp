@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "contact/patch.h"
 
 namespace palpate::mechanics {
 namespace {
@@ -164,8 +163,8 @@ KeptList<SphereContact>& SurfaceContacts::detect(const Vec3& finger,
   below_middle_.reset();
   if (!presses_as_one(*scene_)) return found_;
   detector_.find(finger, reach + scene_->finger.whole.radius, moved_, feet_);
-  const auto nearest = std::min_element(
-      feet_.begin(), feet_.end(), [](const auto& a, const auto& b) { return a.height < b.height; });
+  const auto nearest = std::ranges::min_element(
+      feet_, [](const auto& a, const auto& b) { return a.height < b.height; });
   if (nearest != feet_.end()) {
     below_middle_ = contact::Patch{.at = nearest->at,
                                    .position = nearest->position,
@@ -236,7 +235,7 @@ void SurfaceContacts::shape_patches(KeptList<SphereContact>& contacts) {
 // Loads only the corner with the largest weight of the triangle under the contact.
 void SurfaceContacts::load_nearest_node(SphereContact& contact) const {
   const auto& weights = contact.patch.at.weights;
-  const auto most = std::max_element(weights.begin(), weights.end()) - weights.begin();
+  const auto most = std::ranges::max_element(weights) - weights.begin();
   const auto& corners = surface_->surface().triangles[as_index(contact.patch.at.triangle)];
   contact.load.vertices.assign(1, corners[as_index(most)]);
   contact.load.shares.assign(1, 1.0);

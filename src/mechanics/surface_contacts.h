@@ -152,8 +152,7 @@ std::optional<std::string> SurfaceContacts::settle(Touch& touch, const Complete&
     const std::optional<double> change = balance(touch.contacts, whole, part_of_way);
     if (!change)
       return "no penetration balances the contact: the layer is too thin for this depth; press "
-             "less "
-             "deep";
+             "less deep";
     if (*change <= settled) return std::nullopt;
     if (*change > 0.7 * change_before) part_of_way *= 0.6;
     change_before = *change;

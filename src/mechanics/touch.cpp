@@ -89,9 +89,7 @@ double mesh_error(const SphereContact& contact) {
 }
 
 const SphereContact* Touch::deepest() const {
-  const auto found =
-      std::max_element(contacts.begin(), contacts.end(),
-                       [](const auto& a, const auto& b) { return a.depth < b.depth; });
+  const auto found = std::ranges::max_element(contacts, {}, &SphereContact::depth);
   return found == contacts.end() ? nullptr : &*found;
 }
 

@@ -21,7 +21,7 @@ template <typename Number>
 Number number_at(const char* at, bool big_endian) {
   std::array<char, sizeof(Number)> raw{};
   std::copy_n(at, raw.size(), raw.begin());
-  if (big_endian) std::reverse(raw.begin(), raw.end());
+  if (big_endian) std::ranges::reverse(raw);
   return std::bit_cast<Number>(raw);
 }
 
@@ -36,9 +36,8 @@ constexpr NumberType number_type(std::string_view name, std::string_view other_n
 // The type of that name in a table; null if there is none.
 template <class Table>
 const NumberType* type_named(const Table& table, std::string_view word) {
-  const auto* const found = std::find_if(table.begin(), table.end(), [&](const NumberType& one) {
-    return one.name == word || one.other_name == word;
-  });
+  const auto* const found = std::ranges::find_if(
+      table, [&](const NumberType& one) { return one.name == word || one.other_name == word; });
   return found == table.end() ? nullptr : found;
 }
 

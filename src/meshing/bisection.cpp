@@ -2,16 +2,12 @@
 #include "meshing/bisection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
 #include <tuple>
 #include <utility>
-#include <vector>
-
-#include "geometry/smooth_surface.h"
 
 namespace palpate::meshing {
 namespace {
@@ -20,7 +16,7 @@ namespace {
 constexpr double least_volume = 0.2;
 
 bool has(const std::array<int, 4>& corners, int node) {
-  return std::find(corners.begin(), corners.end(), node) != corners.end();
+  return std::ranges::find(corners, node) != corners.end();
 }
 
 }  // namespace
@@ -36,7 +32,7 @@ Bisection::Bisection(geometry::TetMesh mesh, Place place)
 }
 
 void Bisection::halve(std::span<const char> marked) {
-  std::copy(marked.begin(), marked.end(), left_.begin());
+  std::ranges::copy(marked, left_.begin());
   // Halves are appended, so that they are reached as well.
   for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t)
     if (gone_[t] == 0 && left_[t] > 0) halve(static_cast<int>(t));
@@ -64,8 +60,7 @@ void Bisection::halve(int tetrahedron) {
   const Edge edge = longest(tetrahedron);
   while (gone_[as_index(tetrahedron)] == 0) {
     const std::vector<int> ring = around(edge);
-    const auto other =
-        std::find_if(ring.begin(), ring.end(), [&](int t) { return !(longest(t) == edge); });
+    const auto other = std::ranges::find_if(ring, [&](int t) { return !(longest(t) == edge); });
     if (other != ring.end())
       halve(*other);  // ends, because its edge is longer
     else
@@ -86,7 +81,7 @@ void Bisection::cut(double z, bool outer_only) {
       add(b, c);
       add(c, a);
     }
-    std::sort(crossing.begin(), crossing.end());
+    std::ranges::sort(crossing);
     crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
   } else {
     for (const auto& [a, b] : geometry::edges(mesh_)) add(a, b);
@@ -126,7 +121,7 @@ void Bisection::split(const Edge& edge, double share, const double* height) {
   for (const int t : ring)
     for (const int end : {edge.b, edge.a}) {
       std::array<int, 4> half = mesh_.tetrahedra[as_index(t)];
-      std::replace(half.begin(), half.end(), end, fresh);
+      std::ranges::replace(half, end, fresh);
       halves.push_back(half);
     }
   mesh_.nodes.push_back(middle.between);
@@ -201,8 +196,7 @@ bool TrueBoundary::on_end(const Bisection::Middle& edge) const {
     const auto lies = [&](int node) {
       return std::abs(nodes_[as_index(node)][axis_] - end) <= close;
     };
-    if (lies(edge.a) && lies(edge.b) && std::all_of(edge.outer.begin(), edge.outer.end(), lies))
-      return true;
+    if (lies(edge.a) && lies(edge.b) && std::ranges::all_of(edge.outer, lies)) return true;
   }
   return false;
 }
@@ -270,7 +264,7 @@ std::optional<Vec3> TrueBoundary::position(const OnSurface& at) const {
     bool within = true;
     std::size_t missing = 3;
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto found = std::find(at.vertices.begin(), at.vertices.end(), corners[c]);
+      const auto found = std::ranges::find(at.vertices, corners[c]);
       if (found == at.vertices.end())
         missing = c;
       else
@@ -278,8 +272,7 @@ std::optional<Vec3> TrueBoundary::position(const OnSurface& at) const {
             at.weights[static_cast<Eigen::Index>(found - at.vertices.begin())];
     }
     for (const int vertex : at.vertices)
-      within = within &&
-               (vertex < 0 || std::find(corners.begin(), corners.end(), vertex) != corners.end());
+      within = within && (vertex < 0 || std::ranges::find(corners, vertex) != corners.end());
     if (!within) continue;
     if (at.vertices[1] >= 0 && missing < 3 && outer_surface_.crease(triangle, (missing + 1) % 3))
       creased = true;

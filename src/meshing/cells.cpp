@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -36,12 +35,12 @@ const std::vector<CellFace>& faces_of(int corners) {
 // From the corner with the lowest node to all faces that do not have it, each cut from its own.
 void cut_into(std::vector<std::array<int, 4>>& found, const Cell& cell) {
   const std::span<const int> nodes(cell.nodes.data(), as_index(cell.corners));
-  const int apex = *std::min_element(nodes.begin(), nodes.end());
+  const int apex = *std::ranges::min_element(nodes);
   for (const CellFace& face : faces_of(cell.corners)) {
     CellFace own;
     for (const int corner : face) own.push_back(nodes[as_index(corner)]);
-    if (std::find(own.begin(), own.end(), apex) != own.end()) continue;
-    std::rotate(own.begin(), std::min_element(own.begin(), own.end()), own.end());
+    if (std::ranges::find(own, apex) != own.end()) continue;
+    std::rotate(own.begin(), std::ranges::min_element(own), own.end());
     for (std::size_t i = 1; i + 1 < own.size(); ++i) {
       std::array<int, 4> one{apex, own[0], own[i], own[i + 1]};
       if (one[1] != one[2] && one[2] != one[3] && one[1] != one[3]) found.push_back(one);
@@ -117,8 +116,9 @@ std::pair<double, double> volumes_of(const Cell& cell, const std::vector<Vec3>& 
 std::string straightened(const Cells& cells, const std::string& name) {
   std::string text = "the edges of the cells of " + name +
                      " are taken as straight, and the nodes in their middles are not used";
-  const bool known = !cells.curved && std::all_of(cells.solids.begin(), cells.solids.end(),
-                                                  [](const Cell& one) { return one.corners == 4; });
+  const bool known = !cells.curved && std::ranges::all_of(cells.solids, [](const Cell& one) {
+    return one.corners == 4;
+  });
   if (known) {
     std::map<int, std::pair<double, double>> regions;
     std::pair<double, double> body;
@@ -192,7 +192,7 @@ NamedMesh tetrahedra_of(const Cells& cells, const std::string& path, double metr
       const auto [a, b] = std::minmax(number[as_index(from)], number[as_index(to)]);
       made.middles[{a, b}] = cells.nodes[as_index(middle)] * metres_per_unit;
     }
-  if (std::any_of(regions.begin(), regions.end(), [](int region) { return region != 0; }))
+  if (std::ranges::any_of(regions, [](int region) { return region != 0; }))
     made.mesh.regions = std::move(regions);
   made.names = cells.names;
   const std::string name = std::filesystem::path(path).filename().string();
@@ -234,7 +234,7 @@ std::vector<std::array<Vec3, 3>> faces_of_group(const std::string& path, const s
   for (const auto& [name, number] : cells.face_names) known[number] = name;
   std::vector<std::array<Vec3, 3>> found;
   for (std::size_t f = 0; f < cells.face_groups.size(); ++f) {
-    if (std::none_of(cells.face_groups[f].begin(), cells.face_groups[f].end(), [&](int number) {
+    if (std::ranges::none_of(cells.face_groups[f], [&](int number) {
           return group == known.at(number) || group == std::to_string(number);
         }))
       continue;
@@ -284,7 +284,7 @@ bool add_vtk_cell(int type, const std::vector<int>& nodes, int at, Cells& cells)
     return true;
   }
   Cell cell{.corners = kind->corners, .region = at};
-  std::copy(corners.begin(), corners.end(), cell.nodes.begin());
+  std::ranges::copy(corners, cell.nodes.begin());
   if (type == vtk_quadratic_tetrahedron && nodes.size() == 10)
     cell.middles = {nodes[4], nodes[5], nodes[6], nodes[7], nodes[8], nodes[9]};
   else

@@ -27,12 +27,10 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
-#include <vector>
 
 namespace palpate::meshing::cgal_library {
 namespace {
@@ -153,7 +151,7 @@ std::vector<std::array<int, 2>> self_intersections(const geometry::Surface& surf
   std::vector<std::array<int, 2>> sorted;
   for (const auto& [f, g] : pairs)
     sorted.push_back({static_cast<int>(std::min(f, g)), static_cast<int>(std::max(f, g))});
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return sorted;
 }
 
@@ -203,7 +201,7 @@ std::optional<std::vector<std::array<int, 3>>> triangulated(
 geometry::Surface collapsed(const geometry::Surface& surface, std::span<const double> spacing) {
   Mesh mesh = filled(surface);
   // With no edge below 0.7 of it, the mean edge is about the spacing: measured on ellipsoids.
-  const double largest = *std::max_element(spacing.begin(), spacing.end());
+  const double largest = *std::ranges::max_element(spacing);
   const double least_square = (0.7 * largest) * (0.7 * largest);
   bool selected = false;
   simplification::edge_collapse(

@@ -88,7 +88,7 @@ class AbaqusReader {
 
     [[nodiscard]] bool contains(int number) const {
       return members.contains(number) ||
-             std::any_of(ranges.begin(), ranges.end(), [&](const std::array<int, 3>& range) {
+             std::ranges::any_of(ranges, [&](const std::array<int, 3>& range) {
                return range[0] <= number && number <= range[1] &&
                       (static_cast<long>(number) - range[0]) % range[2] == 0;
              });
@@ -277,11 +277,9 @@ class MeditReader {
     for (int c = 0; c < count; ++c) {
       const int node = whole("a vertex");
       if (node < 1 || as_index(node) > cells_.nodes.size())
-        lines_.fail_at(word_ - 1, "there is no vertex `" + std::to_string(node) +
-                                      "`, they run from "
-                                      "1 to " +
-                                      std::to_string(cells_.nodes.size()) +
-                                      "; save the file again");
+        lines_.fail_at(word_ - 1,
+                       "there is no vertex `" + std::to_string(node) + "`, they run from 1 to " +
+                           std::to_string(cells_.nodes.size()) + "; save the file again");
       found.push_back(node - 1);
     }
     return found;

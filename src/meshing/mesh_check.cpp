@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -49,8 +48,8 @@ class Checker {
   void shapes() const {
     for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
       auto sorted = mesh_.tetrahedra[t];
-      std::sort(sorted.begin(), sorted.end());
-      const auto twin = std::adjacent_find(sorted.begin(), sorted.end());
+      std::ranges::sort(sorted);
+      const auto twin = std::ranges::adjacent_find(sorted);
       if (twin != sorted.end())
         fail(tetrahedron(t) + " has node " + std::to_string(*twin) +
              " twice; remove it or mesh the body again");
@@ -72,7 +71,7 @@ class Checker {
     std::vector<char> used(mesh_.nodes.size(), 0);
     for (const auto& corner : mesh_.tetrahedra)
       for (const int node : corner) used[as_index(node)] = 1;
-    const auto unused = std::find(used.begin(), used.end(), 0);
+    const auto unused = std::ranges::find(used, 0);
     if (unused != used.end())
       fail("node " + std::to_string(unused - used.begin()) +
            " belongs to no tetrahedron; remove it and renumber the nodes");
@@ -128,7 +127,7 @@ class Checker {
 
   // Two neighbours have their common face's nodes in opposite orders.
   static bool same_side(const geometry::FaceUse& a, const geometry::FaceUse& b) {
-    const auto start = std::find(b.nodes.begin(), b.nodes.end(), a.nodes[0]) - b.nodes.begin();
+    const auto start = std::ranges::find(b.nodes, a.nodes[0]) - b.nodes.begin();
     return b.nodes[as_index(start + 1) % 3] == a.nodes[1];
   }
 

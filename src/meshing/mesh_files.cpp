@@ -35,7 +35,7 @@ Pair both_files(const std::string& path) {
 // Goes to the header; `layout` names its words, of which the first two are required.
 void open_header(TableLines& lines, const std::string& layout) {
   if (!lines.next()) lines.fail("the file holds no header line; begin it with `" + layout + "`");
-  const auto most = as_index(std::count(layout.begin(), layout.end(), ' ')) + 1;
+  const auto most = as_index(std::ranges::count(layout, ' ')) + 1;
   if (lines.words().size() < 2 || lines.words().size() > most)
     lines.fail("the header has " + std::to_string(lines.words().size()) + " words; write it as `" +
                layout + "`");
@@ -225,8 +225,7 @@ int part_touching(geometry::TetMesh& mesh) {
   };
   const auto corner_at = [&](int tetrahedron, int node) {
     const auto& nodes = mesh.tetrahedra[as_index(tetrahedron)];
-    return 4 * tetrahedron +
-           static_cast<int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+    return 4 * tetrahedron + static_cast<int>(std::ranges::find(nodes, node) - nodes.begin());
   };
   const std::vector<geometry::FaceUse> uses = geometry::face_uses(mesh);
   for (std::size_t i = 1; i < uses.size(); ++i)
@@ -255,10 +254,9 @@ NamedMesh as_in_file(const std::string& path, double metres_per_unit) {
   const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   if (holds_cells(path)) return tetrahedra_of(read_cells(path), path, metres_per_unit);
   if (ending == ".node" || ending == ".ele") return {read_node_ele(path, metres_per_unit)};
-  throw InputError(
-      {path},
-      "a mesh file wants the ending `.msh`, `.vtu`, `.vtk`, `.inp`, `.mesh`, `.node` or "
-      "`.ele`; save it as one of them");
+  throw InputError({path},
+                   "a mesh file wants the ending `.msh`, `.vtu`, `.vtk`, `.inp`, `.mesh`, `.node` "
+                   "or `.ele`; save it as one of them");
 }
 
 }  // namespace

@@ -11,14 +11,12 @@
 #include <map>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/index.h"
 #include "base/text.h"
 #include "meshing/cells.h"
-#include "meshing/table_lines.h"
 
 namespace palpate::meshing {
 namespace {
@@ -107,9 +105,9 @@ void item(TableLines& lines, const std::string& what, std::size_t i, std::size_t
 std::size_t count(const TableLines& lines, std::size_t i, const std::string& what) {
   const int number = i < lines.words().size() ? lines.whole(i, what) : -1;
   if (number < 0)
-    lines.fail(what +
-               " is missing or negative; after `OFF` write the numbers of vertices, faces "
-               "and edges");
+    lines.fail(
+        what +
+        " is missing or negative; after `OFF` write the numbers of vertices, faces and edges");
   return as_index(number);
 }
 
@@ -118,8 +116,8 @@ Polygons off(TableLines lines) {
   const std::string_view header = found ? lines.words()[0] : std::string_view();
   if (!header.ends_with("OFF") || header.find_first_of("4n") != std::string_view::npos)
     lines.fail(
-        "the file wants to begin with `OFF`; export it again, or give it the ending of its "
-        "real format");
+        "the file wants to begin with `OFF`; export it again, or give it the ending of its real "
+        "format");
   std::size_t at = 1;  // the counts may be in the line of `OFF` or in the next line
   if (lines.words().size() == 1) {
     at = 0;
@@ -182,8 +180,7 @@ Polygons binary_stl(const std::string& path, const std::string& content) {
     std::memcpy(&facets, content.data() + stl_header - sizeof(facets), sizeof(facets));
   if (content.size() != stl_header + stl_facet * facets)
     fail(path,
-         "is neither an ASCII STL, which begins with `solid`, nor a binary one, which would "
-         "have " +
+         "is neither an ASCII STL, which begins with `solid`, nor a binary one, which would have " +
              std::to_string(stl_header + stl_facet * facets) + " bytes for its " +
              std::to_string(facets) + " facets, not " + std::to_string(content.size()) +
              "; it is cut short or of another format: export it again");

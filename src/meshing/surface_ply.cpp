@@ -74,8 +74,7 @@ Header header(const std::string& path, std::string_view content) {
     const std::size_t end = content.find('\n', header.bytes);
     if (line == 1 && trimmed(content.substr(0, std::min<std::size_t>(end, 5))) != "ply")
       fail(path,
-           "does not begin with `ply`; export it again, or give it the ending of its real "
-           "format");
+           "does not begin with `ply`; export it again, or give it the ending of its real format");
     if (end == std::string_view::npos)
       fail(path, "ends before `end_header`; it is cut short: export it again");
     const std::string_view text = content.substr(header.bytes, end - header.bytes);
@@ -111,9 +110,9 @@ std::span<const Element> needed(const std::string& path, const Header& header) {
     if (element.properties.empty())
       fail(path, "element `" + element.name + "` has no property; export it again");
     const auto has = [&](const char* name) {
-      return std::any_of(
-          element.properties.begin(), element.properties.end(),
-          [&](const Property& p) { return p.name == name && !p.length && !p.type->whole; });
+      return std::ranges::any_of(element.properties, [&](const Property& p) {
+        return p.name == name && !p.length && !p.type->whole;
+      });
     };
     std::size_t corners = 0;
     const bool faces = element.name == "face" || element.name == "tristrips";
@@ -129,8 +128,7 @@ std::span<const Element> needed(const std::string& path, const Header& header) {
     if (faces) {
       if (!vertices || corners != 1)
         fail(path,
-             "wants vertices first and then faces with one list `vertex_indices`; export it "
-             "again");
+             "wants vertices first and then faces with one list `vertex_indices`; export it again");
       return std::span(header.elements).first(i + 1);
     }
   }
@@ -279,9 +277,9 @@ Polygons polygons(Body&& body, std::span<const Element> elements, bool ends_with
       body.end();
       if (element.name == "vertex") {
         if (!vertex.allFinite())
-          body.fail("vertex " + std::to_string(i) +
-                    " (counting from 0) has a coordinate that is not a finite number; export it "
-                    "again");
+          body.fail(
+              "vertex " + std::to_string(i) +
+              " (counting from 0) has a coordinate that is not a finite number; export it again");
         found.vertices.push_back(vertex);
       } else if (strips) {
         // A negative number ends a strip.

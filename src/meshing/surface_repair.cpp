@@ -62,10 +62,10 @@ class SurfaceChecker {
     std::vector<std::pair<std::array<int, 3>, int>> sorted;
     for (int f = 0; f < faces(); ++f) {
       std::array<int, 3> key = corners(f);
-      std::sort(key.begin(), key.end());
+      std::ranges::sort(key);
       sorted.emplace_back(key, f);
     }
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     for (std::size_t i = 1; i < sorted.size(); ++i)
       if (sorted[i].first == sorted[i - 1].first)
         fail("faces " + std::to_string(sorted[i - 1].second) + " and " +
@@ -83,7 +83,7 @@ class SurfaceChecker {
     std::vector<char> used(surface_.vertices.size(), 0);
     for (const auto& triangle : surface_.triangles)
       for (const int v : triangle) used[as_index(v)] = 1;
-    const auto unused = std::find(used.begin(), used.end(), 0);
+    const auto unused = std::ranges::find(used, 0);
     if (unused != used.end())
       fail("vertex " + std::to_string(unused - used.begin()) +
            " belongs to no face; remove it and renumber the vertices");
@@ -127,7 +127,7 @@ class SurfaceChecker {
     const std::vector<geometry::SurfacePart> parts = geometry::parts_of(surface_);
     std::vector<double> volumes;
     for (const auto& part : parts) volumes.push_back(geometry::enclosed(part.surface).volume);
-    const auto outer = std::max_element(volumes.begin(), volumes.end()) - volumes.begin();
+    const auto outer = std::ranges::max_element(volumes) - volumes.begin();
     for (int p = 0; p < static_cast<int>(parts.size()); ++p) {
       if (p == outer) continue;
       geometry::Surface others{surface_.vertices, {}};
@@ -290,8 +290,8 @@ std::string many(int count, const std::string& what) {
 }
 
 const Mending::Hole& largest_hole(const Mending& made) {
-  return *std::max_element(made.holes.begin(), made.holes.end(),
-                           [](const auto& a, const auto& b) { return a.area < b.area; });
+  return *std::ranges::max_element(made.holes,
+                                   [](const auto& a, const auto& b) { return a.area < b.area; });
 }
 
 double missing(const Mending& made) {
@@ -328,7 +328,7 @@ std::vector<geometry::Surface> by_volume(const geometry::Surface& surface) {
   std::vector<geometry::Surface> parts;
   for (geometry::SurfacePart& part : geometry::parts_of(surface))
     parts.push_back(std::move(part.surface));
-  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+  std::ranges::stable_sort(parts, [](const auto& a, const auto& b) {
     return std::abs(geometry::enclosed(a).volume) > std::abs(geometry::enclosed(b).volume);
   });
   return parts;

@@ -7,12 +7,9 @@
 #include <cstdlib>
 #include <exception>
 #include <limits>
-#include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
-#include "base/error.h"
 #include "base/numerics.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -162,8 +159,7 @@ void name_regions(const geometry::Body& body, geometry::TetMesh& mesh) {
       throw MeshError("a part of the body lies outside its outer surface; move it inwards");
     return found;
   });
-  if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
-    mesh.regions.clear();
+  if (std::ranges::all_of(mesh.regions, [](int r) { return r == 0; })) mesh.regions.clear();
 }
 
 double volume_of(const geometry::Body& body) {

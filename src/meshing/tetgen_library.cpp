@@ -111,8 +111,8 @@ std::vector<Vec3> nodes_inside(const geometry::TetMesh& mesh, const geometry::Bo
       }
       const double least = apart * apart * wanted * wanted;
       if (surface.nearest(middle).distance_squared < least) continue;
-      if (std::none_of(found.begin(), found.end(),
-                       [&](const Vec3& other) { return (other - middle).squaredNorm() < least; }))
+      if (std::ranges::none_of(
+              found, [&](const Vec3& other) { return (other - middle).squaredNorm() < least; }))
         found.push_back(middle);
     }
   }
@@ -134,7 +134,7 @@ PieceMesh run(const Pieces& pieces, const std::function<double(const Vec3&)>& si
     tetgenio out;
     fill(in, filled);
     in.facetmarkerlist = new int[pieces.numbers.size()];
-    std::copy(pieces.numbers.begin(), pieces.numbers.end(), in.facetmarkerlist);
+    std::ranges::copy(pieces.numbers, in.facetmarkerlist);
     in.tetunsuitable = &too_large;
     tetrahedralize(quiet.data(), &in, &out);
     made = {taken(out), {}, {}};

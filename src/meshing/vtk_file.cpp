@@ -76,8 +76,8 @@ class VtkReader {
     const std::string_view text = lines_.file_text();
     if (lower_case(text.substr(0, first.size())) != lower_case(first))
       lines_.fail(
-          "the file does not begin with `# vtk DataFile Version`; give it the ending of its "
-          "real format");
+          "the file does not begin with `# vtk DataFile Version`; give it the ending of its real "
+          "format");
     const auto version = leading_number(text.substr(first.size(), 8));
     offsets_ = version && version->value >= 5.0;
     bool known = step();

@@ -29,14 +29,14 @@ Markup element(std::string_view tag, const Markup& inner, const Attributes& attr
   for (const auto& [name, value] : attributes)
     html += " " + std::string(name) + "=\"" + escaped(value) + "\"";
   html += ">";
-  if (std::find(without_end.begin(), without_end.end(), tag) == without_end.end())
+  if (std::ranges::find(without_end, tag) == without_end.end())
     html += inner.html() + "</" + std::string(tag) + ">";
   return Markup::ready(html);
 }
 
 Markup element(std::string_view tag, std::string_view words, const Attributes& attributes) {
   constexpr std::array<std::string_view, 3> copied{"code", "pre", "title"};  // letter by letter
-  const bool prose = std::find(copied.begin(), copied.end(), tag) == copied.end();
+  const bool prose = std::ranges::find(copied, tag) == copied.end();
   return element(tag, text(prose ? kept_together(words) : std::string(words)), attributes);
 }
 
@@ -107,7 +107,7 @@ Markup cell(const record::Cell& value, bool heading, const std::string& column) 
 
 // Whether a row says something in this column.
 bool has_values(const record::Table& content, std::size_t column) {
-  return std::any_of(content.rows.begin(), content.rows.end(), [&](const auto& row) {
+  return std::ranges::any_of(content.rows, [&](const auto& row) {
     if (const auto* number = std::get_if<double>(&row[column])) return std::isfinite(*number);
     const auto* word = std::get_if<std::string>(&row[column]);
     return word != nullptr && !word->empty();

@@ -2,7 +2,6 @@
 #include "page/page.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <sstream>
@@ -113,7 +112,7 @@ std::string with_prefix(const std::string& svg, const std::string& prefix) {
   std::string made;
   made.reserve(svg.size() + svg.size() / 8);
   for (std::size_t at = 0; at < svg.size();) {
-    const auto* const word = std::find_if(words.begin(), words.end(), [&](std::string_view each) {
+    const auto* const word = std::ranges::find_if(words, [&](std::string_view each) {
       return svg[at] == each[0] && svg.compare(at, each.size(), each) == 0;
     });
     if (word == words.end()) {
@@ -279,8 +278,8 @@ std::vector<Markup> all_figures(const WholeFolder& folder,
 
 Markup making(const Making& made, const std::vector<HashedFile>& inputs) {
   Markup all = element(
-      "p", text("This repeats the result in this folder, its tables with the same bytes on "
-                "every x86-64 processor, by the same build of palpate " PALPATE_VERSION ":"));
+      "p", text("This repeats the result in this folder, its tables with the same bytes on every "
+                "x86-64 processor, by the same build of palpate " PALPATE_VERSION ":"));
   all += element("pre", element("code", made.command), {{"tabindex", "0"}});
   if (!made.note.empty()) all += paragraphs({made.note});
   record::Table hashes{{"file", "SHA-256"}, {}};

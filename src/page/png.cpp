@@ -2,13 +2,11 @@
 #include "page/png.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 
 #include "base/index.h"
-#include "base/text.h"
 #include "base/written.h"
 #include "plot/gnuplot_text.h"
 

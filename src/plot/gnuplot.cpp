@@ -168,8 +168,7 @@ struct Legend {
     bool fits = false;
     for (const Series& series : figure.series) {
       fits = fits || !series.fits.empty();
-      if (std::find(labels.begin(), labels.end(), label(series)) == labels.end())
-        labels.push_back(label(series));
+      if (std::ranges::find(labels, label(series)) == labels.end()) labels.push_back(label(series));
       longest = std::max(longest, letter_count(labels.back()));
     }
     if (labels.size() == 1 && !fits) return;
@@ -266,8 +265,8 @@ struct KeptRows {
     const Series& first = figure.series.front();
     std::string all = "|";
     for (const Series& one : figure.series) {
-      const bool plain = std::all_of(one.case_name.begin(), one.case_name.end(),
-                                     [](char c) { return c >= ' ' && c <= '~' && c != '|'; });
+      const bool plain = std::ranges::all_of(
+          one.case_name, [](char c) { return c >= ' ' && c <= '~' && c != '|'; });
       if (!plain || one.case_name.empty() || one.step || one.x_from ||
           one.csv_file != first.csv_file || one.column != first.column ||
           one.x_column != first.x_column || one.y_column != first.y_column)
@@ -318,7 +317,7 @@ Look look_of(const Figure& figure, const Legend& legend, std::size_t i) {
   };
   const double width = onto(bar.high) - onto(bar.low);
   const double share = width > 0.0 ? (onto(*series.shade) - onto(bar.low)) / width : 0.5;
-  const auto place = std::find(legend.labels.begin(), legend.labels.end(), label(series));
+  const auto place = std::ranges::find(legend.labels, label(series));
   return {palette_colour(brightest_line * share),
           static_cast<std::size_t>(place - legend.labels.begin())};
 }

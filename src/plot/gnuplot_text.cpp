@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include "base/text.h"
 
@@ -28,7 +27,7 @@ std::vector<std::size_t> tissue_colours(const std::vector<std::string>& tissues)
   std::vector<std::string> known{"skin", "muscle", "ligament", "bone", "upper_leg"};
   std::vector<std::size_t> places;
   for (const std::string& tissue : tissues) {
-    const auto place = std::find(known.begin(), known.end(), tissue);
+    const auto place = std::ranges::find(known, tissue);
     places.push_back(static_cast<std::size_t>(place - known.begin()));
     if (place == known.end()) known.push_back(tissue);
   }
@@ -66,8 +65,8 @@ std::string gnuplot_title(const std::string& title) {
 std::string key_label(std::string key) {
   for (const std::string table : {"tissue.", "contact.", "solver."})
     if (key.starts_with(table)) key.erase(0, table.size());
-  std::replace_if(
-      key.begin(), key.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
+  std::ranges::replace_if(
+      key, [](char c) { return c == '.' || c == '_'; }, ' ');
   for (const std::string name : {"young", "poisson"})  // who is meant
     if (const std::size_t at = key.find(name + " "); at != std::string::npos)
       key.replace(at, name.size(), capitalized(name) + "'s");

@@ -121,7 +121,7 @@ std::vector<std::string> header(Scanner& scanner) {
     if (field.text.empty())
       scanner.refuse(line, "column " + std::to_string(names.size() + 1) +
                                " has no name; the first row names every column");
-    if (std::find(names.begin(), names.end(), field.text) != names.end())
+    if (std::ranges::find(names, field.text) != names.end())
       scanner.refuse(line, "the column name `" + field.text + "` occurs twice; rename one");
     names.push_back(field.text);
   }

@@ -19,6 +19,17 @@ void add_measured(const MeasuredRow& row, std::vector<Cell>& cells) {
 
 }  // namespace
 
+std::string Neglected::sentence() const {
+  return what + ", " + when + (remedy.empty() ? "" : "; " + remedy) + ".";
+}
+
+std::string uncounted(std::span<const Neglected> effects) {
+  std::string text;
+  for (const Neglected& one : effects)
+    if (!one.beside.empty()) text += (text.empty() ? "" : " and ") + one.beside;
+  return text;
+}
+
 std::optional<double> number_of(const CaseRecord& record, std::string_view finding) {
   for (const Finding& one : record.findings)
     if (const auto* number = std::get_if<double>(&one.value);
@@ -70,8 +81,8 @@ Table contact_table(const std::vector<CaseRecord>& records) {
                    "contacts",
                    "slide_mm",
                    "tangential_N"};
-  const bool live = std::any_of(records.begin(), records.end(),
-                                [](const auto& record) { return !record.measured.empty(); });
+  const bool live =
+      std::ranges::any_of(records, [](const auto& record) { return !record.measured.empty(); });
   if (live)
     for (const char* column :
          {"measured_x_mm", "measured_y_mm", "measured_travel_mm", "measured_force_N", "sent_x_N",
@@ -101,16 +112,6 @@ Table strain_table(const std::vector<CaseRecord>& records) {
       table.rows.push_back({record.name, static_cast<double>(row.step), row.time,
                             unit::kPa.from_si(row.stress), row.strain});
   return table;
-}
-
-const char* outcome_word(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::completed: return "completed";
-    case Outcome::diverged: return "diverged";
-    case Outcome::interrupted: return "interrupted";
-    case Outcome::stopped: return "stopped";
-  }
-  return "";
 }
 
 Table measured_force_table(const std::vector<CaseRecord>& records) {

@@ -5,12 +5,14 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/vec3.h"
+#include "base/words.h"
 #include "geometry/tet_mesh.h"
 #include "record/table.h"
 
@@ -66,6 +68,21 @@ struct ScenePicture {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
+// An effect that a model leaves out.
+struct Neglected {
+  std::string what;  // "viscosity"
+  // Of the force (in a uniform test of the strain) by the effect, relative; empty if it is not
+  // known.
+  std::optional<double> change = {};
+  std::string when = {};    // in words: "which would add 36 % to the force while pressing"
+  std::string remedy = {};  // an instruction such as "add `key = value`"; empty if there is none
+  std::string beside = {};  // what the stated error does not contain; empty if it contains it
+
+  [[nodiscard]] std::string sentence() const;  // "viscosity, which would ...; add ..."
+};
+// "viscosity and tissue that has not relaxed": what the errors beside these do not contain.
+[[nodiscard]] std::string uncounted(std::span<const Neglected> effects);
+
 // The answer of a case in three plain sentences, as `run`, `explain` and reports show it.
 // Each member is one or more whole sentences for a reader who knows neither the program nor the
 // theory. All are empty before the case has been judged.
@@ -73,9 +90,8 @@ struct Answer {
   std::string model;  // which model, and why: "Chosen: layer, ... hertz would be 14 % low: ..."
   std::string error;  // the largest force (or strain) if the case has run, with its stated error
   std::string neglected;  // which effects are neglected, what each would change, and its remedy
-  std::vector<std::string> also;  // those after the largest, by name and size: "large strains, 2 %"
-  std::string verdict;            // of a live run: whether measured force and model agree
-  bool complete = true;           // whether nothing that needs a warning is neglected
+  std::vector<Neglected> effects;      // these, the largest first
+  std::string verdict;                 // of a live run: whether measured force and model agree
   std::optional<double> stated_error;  // relative, of the force or strain; empty if not estimated
   // What `error` says beside the error; both are empty where none is estimated.
   std::string tolerance;  // "tolerance 5 %, and no model comes nearer"
@@ -195,7 +211,9 @@ struct Peak {
 [[nodiscard]] Table contact_table(const std::vector<CaseRecord>& records);
 [[nodiscard]] Table strain_table(const std::vector<CaseRecord>& records);
 
-[[nodiscard]] const char* outcome_word(Outcome outcome);
+[[nodiscard]] constexpr const char* outcome_word(Outcome outcome) {
+  return name_of<Outcome::stopped>(outcome);
+}
 
 // The columns `case,step,time_s,force_N`: the measured force of every row; null if it has none.
 [[nodiscard]] Table measured_force_table(const std::vector<CaseRecord>& records);

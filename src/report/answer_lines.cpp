@@ -99,8 +99,7 @@ std::string errors(const std::vector<record::CaseRecord>& records) {
 
 // The largest force of a case that diverged is none of the tissue's.
 std::string peaks(const std::vector<record::CaseRecord>& records) {
-  const auto unstable = std::count_if(records.begin(), records.end(),
-                                      [](const auto& record) { return record.unstable; });
+  const auto unstable = std::ranges::count_if(records, &record::CaseRecord::unstable);
   const std::string diverged =
       std::to_string(unstable) + " of " + std::to_string(records.size()) + " cases diverged";
   std::string text = unstable > 0 ? diverged : "Nothing was reached";
@@ -121,7 +120,7 @@ void add_neglected(const std::vector<record::CaseRecord>& records,
   std::vector<NamedSentence> neglected;
   constexpr std::string_view begins = "Neglected: ";
   for (const record::CaseRecord& record : records)
-    if (const std::string& text = record.answer.neglected; !record.answer.complete)
+    if (const std::string& text = record.answer.neglected; !record.answer.effects.empty())
       neglected.push_back({record.name, text.substr(text.starts_with(begins) ? begins.size() : 0)});
   if (neglected.empty())
     lines.push_back(records.front().answer.neglected);
@@ -140,8 +139,7 @@ std::vector<std::string> said_once(const std::vector<NamedSentence>& all) {
   std::vector<Kind> kinds;
   for (const NamedSentence& one : all) {
     const std::string bare = without_numbers(one.sentence);
-    const auto known = std::find_if(kinds.begin(), kinds.end(),
-                                    [&](const Kind& kind) { return kind.bare == bare; });
+    const auto known = std::ranges::find(kinds, bare, &Kind::bare);
     if (known == kinds.end())
       kinds.push_back({bare, one, 1});
     else

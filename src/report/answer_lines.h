@@ -1,7 +1,6 @@
 // The answers of a run, as `run` and its page say them: short, however many cases a scenario has.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

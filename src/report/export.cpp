@@ -27,9 +27,8 @@ struct SourceColumn {
 std::vector<SourceColumn> number_columns(const record::Table& table) {
   std::vector<SourceColumn> columns;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const bool words = std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-      return std::holds_alternative<std::string>(row[i]);
-    });
+    const bool words = std::ranges::any_of(
+        table.rows, [&](const auto& row) { return std::holds_alternative<std::string>(row[i]); });
     if (words) continue;
     const measured::NamedColumn named = measured::named_column(table.columns[i]);
     if (named.unit)
@@ -59,8 +58,7 @@ std::vector<ExportCurve> export_curves(const record::Table& table, const std::st
       if (const auto* word = std::get_if<std::string>(&cell)) name = *word;
       if (const auto* number = std::get_if<double>(&cell)) name = number_text(*number);
     }
-    auto curve = std::find_if(curves.begin(), curves.end(),
-                              [&](const ExportCurve& one) { return one.name == name; });
+    auto curve = std::ranges::find(curves, name, &ExportCurve::name);
     if (curve == curves.end()) {
       curves.push_back({.name = name, .source = fallback, .columns = {}});
       curve = curves.end() - 1;

@@ -5,18 +5,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
 #include "base/units.h"
-#include "plot/figure.h"
 #include "plot/gnuplot_text.h"
-#include "scenario/family.h"
 
 namespace palpate::report {
 namespace {
@@ -151,7 +146,7 @@ std::optional<CaseColours> case_colours(const scenario::Family& family) {
   }
   if (!best) return std::nullopt;
   CaseColours colours;
-  const auto [low, high] = std::minmax_element(best->values.begin(), best->values.end());
+  const auto [low, high] = std::ranges::minmax_element(best->values);
   colours.bar = {.label = plot::key_label(family.cases.front().swept[key].first) +
                           (best->unit.empty() ? "" : " (" + best->unit + ")"),
                  .low = *low,
@@ -182,8 +177,9 @@ using Records = std::vector<record::CaseRecord>;
 
 template <class Kind>
 bool has_step(const scenario::Scenario& scenario) {
-  return std::any_of(scenario.steps.begin(), scenario.steps.end(),
-                     [](const scenario::Step& step) { return std::holds_alternative<Kind>(step); });
+  return std::ranges::any_of(scenario.steps, [](const scenario::Step& step) {
+    return std::holds_alternative<Kind>(step);
+  });
 }
 
 double display_scale(const scenario::Family& family, const record::CaseRecord& record) {
@@ -293,7 +289,7 @@ void add_decades(std::vector<plot::Figure>& figures, plot::Figure decades,
   bool swept = false;
   for (std::size_t k = 0; k < family.cases.front().swept.size(); ++k)
     if (const auto numbers = numbers_of(family, k)) {
-      const auto [low, high] = std::minmax_element(numbers->values.begin(), numbers->values.end());
+      const auto [low, high] = std::ranges::minmax_element(numbers->values);
       swept = swept || (*low > 0.0 && *high > 10.0 * *low);
     }
   if (swept) {
@@ -305,8 +301,8 @@ void add_decades(std::vector<plot::Figure>& figures, plot::Figure decades,
 }
 
 bool has_measured_force(const record::CaseRecord& record) {
-  return std::any_of(record.measured.begin(), record.measured.end(),
-                     [](const record::MeasuredRow& row) { return std::isfinite(row.force); });
+  return std::ranges::any_of(
+      record.measured, [](const record::MeasuredRow& row) { return std::isfinite(row.force); });
 }
 
 // The regression that the scenario asks for, with the range of its R2 in the legend.
@@ -352,18 +348,18 @@ std::optional<plot::Figure> curvature_figure(const scenario::Family& family,
         curvatures.push_back(std::get<double>(finding.value));
       if (finding.name == "peak_force_N") forces.push_back(std::get<double>(finding.value));
     }
-  std::sort(curvatures.begin(), curvatures.end());
+  std::ranges::sort(curvatures);
   curvatures.erase(std::unique(curvatures.begin(), curvatures.end()), curvatures.end());
   if (curvatures.size() < 3) return std::nullopt;
   std::vector<plot::Series> all;
   const std::vector<std::string>& keys = family.design.keys();
-  const auto swept = std::find(keys.begin(), keys.end(), "tissue.material");
+  const auto swept = std::ranges::find(keys, "tissue.material");
   if (swept == keys.end()) all.push_back({.label = "all cases"});
   for (const scenario::Case& one : family.cases) {
     if (swept == keys.end()) break;
     const std::string& material = one.swept[as_index(swept - keys.begin())].second;
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const plot::Series& series) { return series.case_name == material; }))
+    if (std::ranges::none_of(
+            all, [&](const plot::Series& series) { return series.case_name == material; }))
       all.push_back({.case_name = material, .column = "tissue.material", .colour = {}});
   }
   std::vector<std::string> tissues;
@@ -448,15 +444,14 @@ std::vector<plot::Figure> press_figures(const scenario::Family& family, const Re
     add_decades(figures, std::move(decades), family, records);
   if (const auto figure = curvature_figure(family, records)) figures.push_back(*figure);
   if (live) figures.push_back(*live);
-  const auto slide = std::find_if(figures.begin(), figures.end(), [](const plot::Figure& figure) {
-    return figure.name.ends_with("_slide");
-  });
+  const auto slide = std::ranges::find_if(
+      figures, [](const plot::Figure& figure) { return figure.name.ends_with("_slide"); });
   if (slide != figures.end()) std::rotate(figures.begin(), slide, slide + 1);  // it is asked for
   return figures;
 }
 
 bool holds_a_compression(const scenario::Scenario& scenario) {
-  return std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const auto& step) {
+  return std::ranges::any_of(scenario.steps, [](const auto& step) {
     const auto* compress = std::get_if<scenario::Compress>(&step);
     return compress != nullptr && compress->hold_time > 0.0;
   });

@@ -120,8 +120,7 @@ const std::vector<FindingGroup>& finding_groups() {
 }
 
 FindingWords words_of_finding(const std::string& name) {
-  const auto row = std::find_if(finding_rows.begin(), finding_rows.end(),
-                                [&](const Row& each) { return each.name == name; });
+  const auto row = std::ranges::find(finding_rows, name, &Row::name);
   if (row != finding_rows.end())
     return {.group = row->group, .label = std::string(row->label), .unit = std::string(row->unit)};
   return {.group = finding_groups().size() - 1, .label = name};

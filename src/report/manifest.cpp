@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"

@@ -20,7 +20,7 @@ using page::element;
 constexpr int most_side = 96;
 
 float highest_pressure(const record::PressureMap& map) {
-  return map.pressure.empty() ? 0.0F : *std::max_element(map.pressure.begin(), map.pressure.end());
+  return map.pressure.empty() ? 0.0F : *std::ranges::max_element(map.pressure);
 }
 
 }  // namespace

@@ -15,7 +15,6 @@
 #include "record/table.h"
 #include "report/exr.h"
 #include "report/family_figures.h"
-#include "report/manifest.h"
 #include "report/map_picture.h"
 #include "report/run_page.h"
 #include "report/scene_picture.h"
@@ -282,12 +281,12 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
   write_tissue(*family_, records, folder_, extras);
   write_pictures(*family_, records, folder_, extras);
   if (extras.omitted() > 0)
-    warnings.push_back(std::to_string(extras.omitted()) +
-                       " of the pressure maps, meshes and pictures were not written; run the "
-                       "scenario again");
+    warnings.push_back(
+        std::to_string(extras.omitted()) +
+        " of the pressure maps, meshes and pictures were not written; run the scenario again");
 
   // A gauge without displacement leaves no rows of the model.
-  const bool has_rows = std::any_of(records.begin(), records.end(), [](const auto& record) {
+  const bool has_rows = std::ranges::any_of(records, [](const auto& record) {
     return !record.contact.empty() || !record.strain.empty();
   });
   std::vector<plot::Figure> figures;

@@ -2,27 +2,19 @@
 #include "report/run_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
 #include "base/units.h"
-#include "base/written.h"
-#include "fit/case_fits.h"
 #include "page/html.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"
-#include "record/record.h"
 #include "report/answer_lines.h"
 #include "report/finding_words.h"
 #include "report/map_picture.h"
 #include "report/scene_picture.h"
-#include "scenario/family.h"
 #include "scenario/model_traits.h"
 #include "scenario/resolved.h"
 #include "scenario/tested.h"
@@ -53,9 +45,8 @@ struct Predicted {
   double equation = 0.0;     // N, of eq. (2)
 };
 Predicted predicted(const scenario::Family& family, const record::CaseRecord& record) {
-  const auto most = std::max_element(
-      record.contact.begin(), record.contact.end(),
-      [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; });
+  const auto most =
+      std::ranges::max_element(record.contact, {}, &record::ContactRow::contact_force);
   if (most == record.contact.end()) return {};
   const double modulus = unit::kPa.to_si(finding_number(record, "effective_modulus_kPa"));
   const double curvature = std::isfinite(most->tissue_radius) ? 1.0 / most->tissue_radius : 0.0;
@@ -173,8 +164,7 @@ void add_strains(Rows& rows, const scenario::Family& family, const Records& reco
         rows.add("A time step of " +
                      rounded_text(unit::ms.from_si(family.base.output.interval), 3) + " ms",
                  "stable up to " + rounded_text(limit, 3) +
-                     " ms; the interval of the rows is the "
-                     "paper's",
+                     " ms; the interval of the rows is the paper's",
                  agrees(limit >= unit::ms.from_si(family.base.output.interval)),
                  "a wave would cross many cells within the paper's step");
       break;
@@ -229,9 +219,8 @@ std::string figure_words(const plot::Figure& figure) {
 // One row per finding that is known, one column per case.
 Markup findings_by_case(const Records& records) {
   Markup all;
-  const bool frictionless = std::all_of(records.begin(), records.end(), [](const auto& record) {
-    return finding_number(record, "peak_friction_N") == 0.0;
-  });
+  const bool frictionless = std::ranges::all_of(
+      records, [](const auto& record) { return finding_number(record, "peak_friction_N") == 0.0; });
   const std::size_t of_peak = words_of_finding("peak_force_N").group;
   for (std::size_t group = 0; group < finding_groups().size(); ++group) {
     record::Table table{{"quantity"}, {}};
@@ -240,16 +229,14 @@ Markup findings_by_case(const Records& records) {
       table.columns.push_back(record.name);
       for (const record::Finding& finding : record.findings)
         if (words_of_finding(finding.name).group == group &&
-            std::find(names.begin(), names.end(), finding.name) == names.end())
+            std::ranges::find(names, finding.name) == names.end())
           names.push_back(finding.name);
     }
     for (const std::string& name : names) {
       if (frictionless && name.find("friction") != std::string::npos) continue;
       std::vector<record::Cell> row{words_of_finding(name).label};
       for (const record::CaseRecord& record : records) {
-        const auto found =
-            std::find_if(record.findings.begin(), record.findings.end(),
-                         [&](const record::Finding& finding) { return finding.name == name; });
+        const auto found = std::ranges::find(record.findings, name, &record::Finding::name);
         const bool known =
             found != record.findings.end() && !std::holds_alternative<std::monostate>(found->value);
         const int digits = group == of_peak ? warranted_digits(record.answer) : 4;
@@ -344,10 +331,15 @@ std::string first_statement(const std::string& text) {
 // `viscosity, which would add 36 % to the force while pressing; add ... (also the size of the body,
 // 15 %; large strains, 1.8 %)`.
 std::string neglected(const record::Answer& answer) {
-  std::string text = answer.neglected.substr(0, answer.neglected.find(" Also neglected: "));
-  if (const std::size_t head = text.find(": "); head != std::string::npos) text.erase(0, head + 2);
+  const auto& effects = answer.effects;
+  std::string text = effects.empty() ? answer.neglected : effects.front().sentence();
+  if (effects.empty()) text.erase(0, text.find(": ") + 2);
   if (text.ends_with('.')) text.pop_back();
-  return answer.also.empty() ? text : text + " (also " + joined(answer.also, "; ") + ")";
+  std::vector<std::string> also;
+  for (std::size_t i = 1; i < effects.size(); ++i)
+    also.push_back(effects[i].what +
+                   (effects[i].change ? ", " + percent_text(std::abs(*effects[i].change)) : ""));
+  return also.empty() ? text : text + " (also " + joined(also, "; ") + ")";
 }
 
 // `1.17 N`
@@ -454,7 +446,7 @@ std::string differing_text(const scenario::Family& family) {
     std::vector<std::string> values;
     for (const scenario::Case& one : family.cases)
       if (const std::string& value = one.swept[k].second;
-          std::find(values.begin(), values.end(), value) == values.end())
+          std::ranges::find(values, value) == values.end())
         values.push_back(value);
     all.push_back(within_sentence(plot::key_label(family.design.keys()[k])) +
                   (values.size() > most ? " (" + std::to_string(values.size()) + " values)"
@@ -466,9 +458,8 @@ std::string differing_text(const scenario::Family& family) {
 // What several cases have in common, and in what they differ.
 std::vector<std::string> in_common(const scenario::Family& family, const Records& records) {
   const std::vector<std::string>& keys = family.design.keys();
-  const bool one_place = std::none_of(keys.begin(), keys.end(), [](const std::string& key) {
-    return key.starts_with("tissue.shape");
-  });
+  const bool one_place = std::ranges::none_of(
+      keys, [](const std::string& key) { return key.starts_with("tissue.shape"); });
   const scenario::Case& first = family.cases.front();
   return {joined(scenario::tested(
                      first, keys,
@@ -511,8 +502,7 @@ void add_answer(page::Page& page, const scenario::Family& family, const Records&
     std::vector<std::string> lines = answer_lines(records);
     std::erase(lines[1], '`');
     const std::size_t error = std::min(lines[1].find(", with"), lines[1].size());
-    const bool none = std::all_of(records.begin(), records.end(),
-                                  [](const auto& record) { return record.unstable; });
+    const bool none = std::ranges::all_of(records, &record::CaseRecord::unstable);
     page.headline(lines[1].substr(0, error), lines[1].substr(std::min(error + 2, lines[1].size())),
                   none ? page::Page::Tone::failure : page::Page::Tone::result);
     std::vector<NamedSentence> ends;
@@ -539,8 +529,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   page::Page page(family.title, "run");
   add_answer(page, family, records);
   const std::vector<Markup> figures = page::all_figures(folder, [&](const std::string& name) {
-    const auto figure = std::find_if(shown.figures.begin(), shown.figures.end(),
-                                     [&](const plot::Figure& one) { return one.name == name; });
+    const auto figure = std::ranges::find(shown.figures, name, &plot::Figure::name);
     return figure == shown.figures.end() ? "" : figure_words(*figure);
   });
   page.figures(figures);
@@ -575,8 +564,8 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   std::vector<HashedFile> inputs;
   for (const scenario::InputFile& input : family.inputs)
     inputs.push_back({input.name, sha256(input.content)});
-  const bool live = std::any_of(records.begin(), records.end(),
-                                [](const auto& record) { return !record.attached.empty(); });
+  const bool live =
+      std::ranges::any_of(records, [](const auto& record) { return !record.attached.empty(); });
   page.section(
       "How it was made",
       page::making({.command = repeating(family),

@@ -8,14 +8,11 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "base/text.h"
 #include "base/units.h"
 #include "base/written.h"
-#include "page/html.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"
 
@@ -137,9 +134,7 @@ std::string painted(const std::vector<const ScenePicture::Face*>& faces,
     if (normal.dot(view.towards) <= 0.0) continue;
     seen.push_back({(a + b + c).dot(view.towards), face, 0.74 + 0.3 * normal.dot(light)});
   }
-  std::stable_sort(seen.begin(), seen.end(), [](const Seen& one, const Seen& other) {
-    return one.nearness < other.nearness;
-  });
+  std::ranges::stable_sort(seen, {}, &Seen::nearness);
   std::string text, before;
   for (const Seen& one : seen) {
     const Colour base = one.face->held ? held_colour : colours.at(as_index(one.face->region));
@@ -216,7 +211,7 @@ std::string slides(const ScenePicture& picture, const View& view) {
 
 std::string finger(const ScenePicture& picture, const View& view) {
   std::vector<ScenePicture::Sphere> spheres = picture.finger;
-  std::stable_sort(spheres.begin(), spheres.end(), [&](const auto& one, const auto& other) {
+  std::ranges::stable_sort(spheres, [&](const auto& one, const auto& other) {
     return one.centre.dot(view.towards) < other.centre.dot(view.towards);
   });
   std::string text;
@@ -358,9 +353,9 @@ std::string legend(const ScenePicture& picture) {
 }
 
 constexpr const char* gradient =
-    "<defs><radialGradient id=\"ball\" cx=\"0.36\" cy=\"0.3\" r=\"0.75\">"
-    "<stop offset=\"0\" stop-color=\"#f4f7fb\"/><stop offset=\"0.45\" stop-color=\"#aebccd\"/>"
-    "<stop offset=\"1\" stop-color=\"#5d6c80\"/></radialGradient></defs>\n";
+    "<defs><radialGradient id=\"ball\" cx=\"0.36\" cy=\"0.3\" r=\"0.75\"><stop offset=\"0\" "
+    "stop-color=\"#f4f7fb\"/><stop offset=\"0.45\" stop-color=\"#aebccd\"/><stop offset=\"1\" "
+    "stop-color=\"#5d6c80\"/></radialGradient></defs>\n";
 
 }  // namespace
 
@@ -573,8 +568,7 @@ Markup slider(const std::string& id, const std::string& label, const std::string
 Markup scene_view(const record::ScenePicture& picture, const std::string& title) {
   std::vector<std::string> materials;
   for (const std::string& material : picture.materials)
-    if (std::find(materials.begin(), materials.end(), material) == materials.end())
-      materials.push_back(material);
+    if (std::ranges::find(materials, material) == materials.end()) materials.push_back(material);
   std::string words = "Specimen of " + joined(materials, ", ");
   words += picture.finger.empty()
                ? " between two plates; the arrows are the load, " + picture.load + "."

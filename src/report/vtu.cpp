@@ -1,7 +1,6 @@
 // Writes VTK's XML files with numbers in base64.
 #include "report/vtu.h"
 
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>

@@ -15,6 +15,7 @@
 namespace palpate::run {
 namespace {
 
+using record::Neglected;
 using scenario::Model;
 
 std::string word(Model model) { return scenario::traits(model).word; }
@@ -89,8 +90,7 @@ class Words {
   }
 
   // Gives an answer its error, with what is said beside it.
-  void state(std::optional<double> error, const std::vector<Neglected>& neglected,
-             record::Answer& answer) const {
+  void state(std::optional<double> error, record::Answer& answer) const {
     answer.stated_error = error;
     if (!error) return;
     answer.tolerance = "tolerance " + percent_text(tolerance());
@@ -98,24 +98,17 @@ class Words {
       answer.tolerance += follows_hertz()
                               ? ", and with `contact.coupling = \"one_way\"` no model comes nearer"
                               : ", and no model comes nearer";
-    for (const Neglected& one : neglected)
-      if (!one.beside.empty())
-        answer.uncounted += (answer.uncounted.empty() ? "" : " and ") + one.beside;
+    answer.uncounted = record::uncounted(answer.effects);
   }
 
-  void neglect(const std::vector<Neglected>& all, record::Answer& answer) const {
-    answer.complete = all.empty();
-    if (all.empty())
+  void neglect(record::Answer& answer) const {
+    answer.effects = neglected(scene_);
+    if (answer.effects.empty())
       answer.neglected = "Neglected: nothing that would add more than " +
                          percent_text(0.2 * tolerance()) + " to this error.";
-    for (const Neglected& one : all) {
-      const bool first = answer.neglected.empty();
-      answer.neglected += (first ? "Neglected: " : " Also neglected: ") + one.what + ", " +
-                          one.when + (one.remedy.empty() ? "" : "; " + one.remedy) + ".";
-      if (!first)
-        answer.also.push_back(one.what +
-                              (one.change ? ", " + percent_text(std::abs(*one.change)) : ""));
-    }
+    for (const Neglected& one : answer.effects)
+      answer.neglected +=
+          (answer.neglected.empty() ? "Neglected: " : " Also neglected: ") + one.sentence();
   }
 
   // What the model leaves out, the largest first.
@@ -133,7 +126,7 @@ class Words {
       fresh_tissue();
       waves();
     }
-    std::stable_sort(all_.begin(), all_.end(), [](const Neglected& a, const Neglected& b) {
+    std::ranges::stable_sort(all_, [](const Neglected& a, const Neglected& b) {
       return std::abs(a.change.value_or(HUGE_VAL)) > std::abs(b.change.value_or(HUGE_VAL));
     });
     return std::move(all_);
@@ -209,8 +202,8 @@ class Words {
   // What a formula would do in this scene: "hertz would be 14 % low: ..."
   [[nodiscard]] std::string against(Model model, const std::string& verb = " would be ") const {
     const auto& forecasts = scene_.choice.forecasts;
-    const auto found = std::find_if(forecasts.begin(), forecasts.end(),
-                                    [&](const auto& traits) { return traits.model == model; });
+    const auto found =
+        std::ranges::find_if(forecasts, [&](const auto& traits) { return traits.model == model; });
     if (found == forecasts.end()) return "";
     if (!found->cannot.empty()) return word(model) + " does not apply: " + found->cannot + ".";
     const bool thickness = model == Model::layer;  // is represented
@@ -320,8 +313,8 @@ class Words {
     const scenario::Resolved& scenario = scene_.scenario;
     const bool elastic = scenario.uniform() ? scenario.tissue.law.kind == tissue::Viscosity::none
                                             : scene_.relaxation.elastic();
-    if (elastic || std::none_of(scenario.regions.begin(), scenario.regions.end(),
-                                [](const auto& region) { return region.other_law; }))
+    if (elastic ||
+        std::ranges::none_of(scenario.regions, [](const auto& region) { return region.other_law; }))
       return;
     omit("the viscosity of the material of a `[[region]]`", std::nullopt,
          "which takes that of `tissue`; what this changes is not known",
@@ -407,12 +400,11 @@ Expected expect(const scene::Scene& scene) {
   Expected expected;
   expected.mesh_error = mesh_error(scene);
   const std::optional<double> error = stated_error(scene, expected.mesh_error);
-  expected.neglected = neglected(scene);
   const Words words(scene, expected.mesh_error);
   record::Answer& answer = expected.answer;
   answer.model = words.model();
-  words.neglect(expected.neglected, answer);
-  words.state(error, expected.neglected, answer);
+  words.neglect(answer);
+  words.state(error, answer);
   answer.error = quantity(scene.scenario) + " has " + Words::error(answer) + ".";
   return expected;
 }
@@ -421,14 +413,13 @@ record::Answer answer(const scene::Scene& scene, const record::CaseRecord& recor
   const std::optional<double> mesh_error = record::number_of(record, "mesh_error");
   const Words words(scene, mesh_error);
   const auto peak = record::peak_of(record);
-  const std::vector<Neglected> effects = neglected(scene);
   record::Answer answer;
   answer.model = words.model();
-  words.neglect(effects, answer);
+  words.neglect(answer);
   answer.error =
       peak ? "Peak " + peak->of + ": " + rounded_text(peak->value, 3) + peak->unit : "No result";
   if (record.outcome == record::Outcome::completed) {
-    words.state(stated_error(scene, mesh_error), effects, answer);
+    words.state(stated_error(scene, mesh_error), answer);
     answer.error += ", with " + Words::error(answer) + ".";
   } else {
     answer.error += peak ? " " + record::reached_text(record) + ", where the run " +

@@ -10,26 +10,14 @@
 
 namespace palpate::run {
 
-struct Neglected {
-  std::string what;  // "viscosity"
-  // Of the force (in a uniform test of the strain) by the effect, relative; empty if it is not
-  // known.
-  std::optional<double> change = {};
-  std::string when;    // the change in words: "which would add 36 % to the force while pressing"
-  std::string remedy;  // an instruction such as "add `key = value`"; empty if there is none
-  std::string
-      beside;  // what the stated error does not contain: "viscosity"; empty if it contains it
-};
-
 // Viscosity and large strains count from a fifth of `solver.tolerance` on, the others from the
 // tolerance on. What is not known is the first, then the largest.
-[[nodiscard]] std::vector<Neglected> neglected(const scene::Scene& scene);
+[[nodiscard]] std::vector<record::Neglected> neglected(const scene::Scene& scene);
 
 // What is known before a case runs.
 struct Expected {
   record::Answer answer;
-  std::optional<double> mesh_error;  // the mesh's part of it: run::mesh_error()
-  std::vector<Neglected> neglected;
+  std::optional<double> mesh_error;  // the mesh's part of its error: run::mesh_error()
 };
 [[nodiscard]] Expected expect(const scene::Scene& scene);
 

@@ -7,14 +7,13 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "contact/layer.h"
-#include "run/share_out.h"
+#include "run/family.h"
 #include "run/size_effect.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
 #include "scene/places.h"
 #include "scene/proportions.h"
 #include "scene/refining_press.h"
-#include "scene/scene.h"
 #include "scene/specimen_shape.h"
 #include "scene/time_plan.h"
 #include "solid/finger_press.h"
@@ -472,9 +471,8 @@ class Chooser {
 
   [[nodiscard]] std::string inertia_answer() const {
     if (moves()) return "a mesh includes it, a formula does not";
-    return "neglected in the force of this scenario: `consistent` includes it with "
-           "`viscosity` none, nodal_drag, or a solid that relaxes in the contact too; else use "
-           "`resolved`";
+    return "neglected in the force of this scenario: `consistent` includes it with `viscosity` "
+           "none, nodal_drag, or a solid that relaxes in the contact too; else use `resolved`";
   }
 
   void add(const ModelTraits& traits, double error, double of_mesh = 0.0) {

@@ -2,7 +2,9 @@
 #include "run/family.h"
 
 #include <algorithm>
-#include <optional>
+#include <atomic>
+#include <exception>
+#include <thread>
 
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
@@ -10,7 +12,6 @@
 #include "run/findings.h"
 #include "run/pace.h"
 #include "run/refined_mesh.h"
-#include "run/share_out.h"
 #include "scenario/programme.h"
 #include "scenario/words.h"
 #include "scene/specimen_shape.h"
@@ -33,6 +34,29 @@ std::string chosen(const scenario::Resolved& scenario) {
 }
 
 }  // namespace
+
+void share_out(std::size_t count, int workers, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> failures(count);
+  const auto take = [&, limits = StopScope::limits()] {
+    const StopScope scope(limits);
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int worker = 1; worker < workers; ++worker) others.emplace_back(take);
+    take();
+  }
+  // Only now, so that the reported one does not depend on timing.
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
 
 std::vector<scene::Scene> build_all(const scenario::Family& family, int workers) {
   std::vector<scene::Scene> scenes(family.cases.size());

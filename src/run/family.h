@@ -11,6 +11,10 @@
 
 namespace palpate::run {
 
+// Calls work(i) for all i below `count` on `workers` threads, which take the StopScope of this one.
+// Throws the exception of the first i that has one, after all calls.
+void share_out(std::size_t count, int workers, const std::function<void(std::size_t)>& work);
+
 // Builds every case, all by one_model(). Throws the exception of the first case (by number) that
 // has one.
 [[nodiscard]] std::vector<scene::Scene> build_all(const scenario::Family& family, int workers);

@@ -41,9 +41,9 @@ double crossing(const Point& a, const Point& b, double y) {
 
 std::optional<double> force_at_indentation(const scenario::PlainScenario& scenario,
                                            const record::CaseRecord& record, double depth) {
-  const auto first =
-      std::find_if(scenario.steps.begin(), scenario.steps.end(),
-                   [](const auto& step) { return std::holds_alternative<scenario::Indent>(step); });
+  const auto first = std::ranges::find_if(scenario.steps, [](const auto& step) {
+    return std::holds_alternative<scenario::Indent>(step);
+  });
   const int number = static_cast<int>(first - scenario.steps.begin()) + 1;
   std::optional<Point> before;
   for (const record::ContactRow& row : record.contact) {
@@ -56,8 +56,8 @@ std::optional<double> force_at_indentation(const scenario::PlainScenario& scenar
 }
 
 std::optional<double> creep_half_time(const record::CaseRecord& record, double elastic_strain) {
-  const auto first = std::find_if(record.strain.begin(), record.strain.end(),
-                                  [](const auto& row) { return row.stress > 0.0; });
+  const auto first =
+      std::ranges::find_if(record.strain, [](const auto& row) { return row.stress > 0.0; });
   constexpr double rounding = 1e-12;
   const double half = 0.5 * elastic_strain;
   std::optional<Point> before;
@@ -84,9 +84,8 @@ class Findings {
         record_(record),
         before_(record.findings) {
     record_.findings.clear();
-    const auto peak = std::max_element(
-        record_.contact.begin(), record_.contact.end(),
-        [](const auto& a, const auto& b) { return a.contact_force < b.contact_force; });
+    const auto peak =
+        std::ranges::max_element(record_.contact, {}, &record::ContactRow::contact_force);
     if (peak != record_.contact.end()) peak_ = *peak;
   }
 
@@ -106,10 +105,10 @@ class Findings {
     for (const Finding& finding : before_) {
       record_.findings.push_back(finding);
       if (finding.name == "energy_imbalance" && std::get<double>(finding.value) > 0.05)
-        warning(percent_text(std::get<double>(finding.value)) +
-                " of the energy is not accounted for: the first step or all of them are too long "
-                "for what happens in them; set a shorter `output.interval` or more "
-                "`solver.substeps`");
+        warning(
+            percent_text(std::get<double>(finding.value)) +
+            " of the energy is not accounted for: the first step or all of them are too long for "
+            "what happens in them; set a shorter `output.interval` or more `solver.substeps`");
     }
     record_.answer = answer(scene_, record_);
     known_failures();
@@ -152,12 +151,10 @@ class Findings {
     const scene::BaseArea base =
         scene::base_area(scenario, body, touch.position, touch.position.z() - level);
     if (base.under_press < least_under)
-      warning(
-          "only " + percent_text(base.under_press) +
-          " of the surface behind the press is fixed: the body bends or turns there; see the "
-          "base in "
-          "`palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it is fixed "
-          "elsewhere");
+      warning("only " + percent_text(base.under_press) +
+              " of the surface behind the press is fixed: the body bends or turns there; see the "
+              "base in `palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it "
+              "is fixed elsewhere");
   }
 
   void specimen(const scene::Specimen& specimen) {
@@ -256,17 +253,16 @@ class Findings {
     if (peak.contact_force < 10.0 * pull_off)
       warning("the greatest force is below ten times the adhesive pull-off of about " +
               rounded_text(pull_off, 2) +
-              " N: a measurement would show adhesion, which is not "
-              "modelled");
+              " N: a measurement would show adhesion, which is not modelled");
   }
 
   // Meshes of `solid` are made for the deepest displacement.      docs/theory.md [solid_force]
   void less_deep(double at_most) {
     const std::vector<double>& asked = scene_.scenario.output.force_at;
     if (!traits_.solid || asked.empty()) return;
-    const double least = *std::min_element(asked.begin(), asked.end());
-    const auto row = std::find_if(record_.contact.begin(), record_.contact.end(),
-                                  [&](const auto& one) { return one.indentation >= least; });
+    const double least = *std::ranges::min_element(asked);
+    const auto row = std::ranges::find_if(
+        record_.contact, [&](const auto& one) { return one.indentation >= least; });
     if (row == record_.contact.end()) return;
     const double error = row->mesh_error * row->indentation / least;
     if (error > 1.5 * at_most)
@@ -278,7 +274,7 @@ class Findings {
   void force_at(double depth) {
     const std::string text = quantity_text(depth, unit::mm);
     std::string name = "force_at_" + text + "_N";
-    std::replace(name.begin(), name.end(), ' ', '_');
+    std::ranges::replace(name, ' ', '_');
     const std::optional<double> force = force_at_indentation(scene_.scenario, record_, depth);
     if (force) return add(name, *force);
     add(name, std::monostate{});
@@ -454,12 +450,7 @@ class Findings {
     const scene::Specimen& specimen = *scene_.specimen;
     SymmetricSolver solver;
     if (!solver.prepare(tissue::stiffness_matrix(network), specimen.held)) return 0.0;
-    contact::Patch patch;
-    patch.at = scene::first_touch(scene_).at;
-    patch.position = specimen.surface->position(patch.at);
-    patch.normal = specimen.surface->normal(patch.at);
-    patch.axis = patch.normal.unitOrthogonal();
-    patch.a = patch.b = peak_.contact_radius;
+    const contact::Patch patch = scene::first_patch(scene_, peak_.contact_radius);
     contact::Spread spread;
     contact::Spreader(*specimen.surface).spread(patch, spread);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * network.nodes());
@@ -562,11 +553,10 @@ class Findings {
     if (drop <= 0.0) return;
     add("turning_drop", drop);
     if (drop > tolerance())
-      warning(
-          "when the finger turned back the force fell from " + rounded_text(before, 3) + " to " +
-          rounded_text(after, 3) +
-          " N within a row: Kelvin-Voigt's dashpots follow the rate, which turns at once; write "
-          "`tissue.viscosity = \"standard_linear_solid\"`");
+      warning("when the finger turned back the force fell from " + rounded_text(before, 3) +
+              " to " + rounded_text(after, 3) +
+              " N within a row: Kelvin-Voigt's dashpots follow the rate, which turns at once; "
+              "write `tissue.viscosity = \"standard_linear_solid\"`");
   }
 
   void device() {

@@ -85,7 +85,7 @@ std::vector<Face> cut(const std::vector<Face>& all, const Vec3& up, double level
   for (const Face& face : all) {
     std::array<double, 3> heights{};
     for (std::size_t i = 0; i < 3; ++i) heights[i] = face.corners[i].dot(up) - level;
-    const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+    const auto [lowest, highest] = std::ranges::minmax_element(heights);
     if (face.within >= 0 || *lowest >= -rounding || *highest <= rounding) {
       found.push_back(face);
       continue;

@@ -121,15 +121,14 @@ class Press {
       record_.findings.push_back(
           {"surface_displacement_mm", unit::mm.from_si(deepest_surface_displacement_)});
     if (!mesh_ && scene_.scenario.output.tissue)
-      record_.warnings.push_back(
-          "`" + std::string(scenario::traits(scene_.scenario.solver.model).word) +
-          "` writes no displacements of a mesh; set `solver.model = \"coupled_springs\"` for "
-          "`output.tissue`");
+      record_.warnings.push_back("`" +
+                                 std::string(scenario::traits(scene_.scenario.solver.model).word) +
+                                 "` writes no displacements of a mesh; set `solver.model = "
+                                 "\"coupled_springs\"` for `output.tissue`");
     if (on_crease_)
       record_.warnings.push_back(
           "the finger touched the specimen at a sharp edge or rim: the curvature there is that of "
-          "the "
-          "side it touched");
+          "the side it touched");
     if (folded_at_ >= 0.0)
       record_.warnings.push_back(
           "at a displacement of " + quantity_text(folded_at_, unit::mm) +
@@ -138,8 +137,7 @@ class Press {
     if (nearly_conforming_)
       record_.warnings.push_back(
           "the tissue is hollow beyond half the finger's curvature where it was pressed: the "
-          "contact "
-          "grows wide compared with the sphere, and Hertz's law is inaccurate");
+          "contact grows wide compared with the sphere, and Hertz's law is inaccurate");
     if (one_sided_)
       record_.warnings.push_back(
           "near a boundary or sharp edge the curvature was estimated from one side only, to first "

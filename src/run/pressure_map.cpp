@@ -9,8 +9,6 @@
 
 #include "contact/hertz.h"
 #include "contact/layer.h"
-#include "mechanics/contacts.h"
-#include "record/record.h"
 
 namespace palpate::run {
 namespace {

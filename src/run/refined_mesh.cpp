@@ -81,8 +81,8 @@ constexpr double removed = 0.75;
 std::vector<char> marked(const std::vector<double>& errors, double share, std::size_t most) {
   std::vector<std::size_t> order(errors.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return errors[a] > errors[b]; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return errors[a] > errors[b]; });
   const double all = std::accumulate(errors.begin(), errors.end(), 0.0);
   std::vector<char> marks(errors.size(), 0);
   double sum = 0.0;
@@ -135,7 +135,7 @@ class Refining {
       for (Vec3& place : places) place += scene::pressed_place(scene);
       for (;;) {
         const std::vector<char> marks = too_large(shape.mesh, places, longest_);
-        if (std::count(marks.begin(), marks.end(), 1) == 0) break;
+        if (std::ranges::count(marks, 1) == 0) break;
         auto finer = halved(shape.mesh, marks, boundary);
         if (!finer) break;
         take(std::move(*finer));
@@ -152,7 +152,7 @@ class Refining {
       for (std::size_t most = found.parts.size(); most > 0 && !finer;) {
         const std::vector<char> marks = marked(found.parts, share, most);
         finer = halved(shape.mesh, marks, boundary);
-        most = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), times)) / 2;
+        most = static_cast<std::size_t>(std::ranges::count(marks, times)) / 2;
       }
       if (!finer) break;
       take(std::move(*finer));

@@ -43,7 +43,7 @@ scenario::Mesh coarse(const scenario::Resolved& scenario, const scene::SurfaceTo
     mesh.cells[axis] = std::clamp(static_cast<int>(std::lround(box->size[axis] / cell)), 2, 20);
   // Cells about as long as the way to the nearest boundary under the finger.
   const double near = std::min(touch.to_edge, touch.thickness);
-  const double wide = *std::max_element(box->size.begin(), box->size.end());
+  const double wide = *std::ranges::max_element(box->size);
   mesh.grading = std::clamp(wide / (2.0 * near), 1.0, 30.0);
   if (mesh.grading > 1.5) mesh.cells = {6, 6, 5};
   return mesh;

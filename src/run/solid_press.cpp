@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -73,43 +72,37 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
       scene.scenario.regions.begin(), scene.scenario.regions.end(),
       [](const auto& region) { return std::holds_alternative<scenario::Inclusion>(region.part); });
   if (count == 1 && included_) asked_.front() = beside_inclusion;
-  per_radius_ = asked_;
   make();
 }
 
 // All meshes have one kind of surface and one size of inclusions, or no force could be extrapolated
 // from theirs.
 void SolidPress::make() {
-  for (;;) {
-    width_ = scene_->finger.centres.size() > 1
-                 ? 1.0
-                 : scene::width_on_edge(*body().outer_surface, body().first_touch,
-                                        scene_->finger.sphere_radius, deepest_);
-    try {
-      presses_.clear();
-      for (std::size_t i = 0; i < per_radius_.size(); ++i) presses_.push_back(made(i));
-      return;
-    } catch (const MeshError&) {
-      if (!simpler()) throw;
-    }
-  }
-}
-
-std::unique_ptr<solid::FingerPress> SolidPress::made(std::size_t mesh) {
   // Again with elements a little smaller where the surface is a file's, as TetGen may fail by bad
   // luck.
   constexpr double finer = 1.07;
   const int most_tries = scene_->solid->surface ? 3 : 1;
-  double& number = per_radius_[mesh];
-  number = asked_[mesh];
-  for (int tries = 1;; ++tries) {
-    try {
-      return std::make_unique<solid::FingerPress>(order(number));
-    } catch (const MeshError&) {
-      if (tries == most_tries) throw;
-      number *= finer;
+  do {
+    width_ = scene_->finger.centres.size() > 1
+                 ? 1.0
+                 : scene::width_on_edge(*body().outer_surface, body().first_touch,
+                                        scene_->finger.sphere_radius, deepest_);
+    per_radius_ = asked_;
+    presses_.clear();
+    int tries = 1;
+    while (presses_.size() < asked_.size()) {
+      double& number = per_radius_[presses_.size()];
+      try {
+        presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
+        tries = 1;
+      } catch (const MeshError&) {
+        number *= finer;
+        if (tries++ < most_tries) continue;
+        if (!simpler()) throw;
+        break;
+      }
     }
-  }
+  } while (presses_.size() < asked_.size());
 }
 
 // Inclusions that touch a border cannot be meshed. The smooth surface through the vertices of a
@@ -267,11 +260,10 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   add("meshes", static_cast<double>(presses_.size()));
   add("factorisations", static_cast<double>(finest.factorisations()));
   if (const auto snap = presses_.back()->snap())
-    record.warnings.push_back("the force falls from a displacement of " +
-                              rounded_text(unit::mm.from_si(snap->first), 2) + " mm to " +
-                              rounded_text(unit::mm.from_si(snap->second), 2) +
-                              " mm: a wall snaps through there, and a finger that is pressed by a "
-                              "force would jump");
+    record.warnings.push_back(
+        "the force falls from a displacement of " + rounded_text(unit::mm.from_si(snap->first), 2) +
+        " mm to " + rounded_text(unit::mm.from_si(snap->second), 2) +
+        " mm: a wall snaps through there, and a finger that is pressed by a force would jump");
   if (inclusion_size_ < 1.0)
     record.warnings.push_back(
         "an inclusion that touches a border is meshed with a radius that is " +
@@ -279,8 +271,8 @@ void SolidPress::add_findings(record::CaseRecord& record) const {
   if (flat_)
     record.warnings.push_back(
         "the smooth surface through the vertices of the file cannot be meshed, so that its "
-        "triangles "
-        "are taken as they are; a finer surface has less of a difference between the two");
+        "triangles are taken as they are; a finer surface has less of a difference between the "
+        "two");
 }
 
 geometry::TetMesh SolidPress::corners() const {

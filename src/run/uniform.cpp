@@ -279,8 +279,8 @@ class UniformTest {
   }
 
   static constexpr const char* folded =
-      "a tetrahedron has turned inside out; give a smaller load, or set "
-      "`solver.kinematics = \"nonlinear\"`";
+      "a tetrahedron has turned inside out; give a smaller load, or set `solver.kinematics = "
+      "\"nonlinear\"`";
 
   const scene::Scene& scene_;
   const scene::Specimen& specimen_;

@@ -1,7 +1,6 @@
 // Checks that involve several keys at once.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 
@@ -42,16 +41,15 @@ class Checker {
   void steps() {
     if (scenario_.steps.empty())
       return problem("step",
-                     "a scenario needs something to do; add a `[[step]]`, as "
-                     "`kind = \"indent\"`");
+                     "a scenario needs something to do; add a `[[step]]`, as `kind = \"indent\"`");
     const bool uniform = loads_end_faces(scenario_.steps.front());
     const bool ellipsoid = std::holds_alternative<Ellipsoid>(scenario_.tissue.shape);
     if (uniform && (ellipsoid || std::holds_alternative<HalfSpace>(scenario_.tissue.shape)))
       problem("tissue.shape",
               std::string("`creep`, `relax` and `compress` need flat end faces, which ") +
                   (ellipsoid ? "an `ellipsoid`" : "a `half_space`") +
-                  " does not have; use `cuboid`, `disc`, `cylinder`, `ligament`, "
-                  "`bone_shaft` or `layered_limb`");
+                  " does not have; use `cuboid`, `disc`, `cylinder`, `ligament`, `bone_shaft` or "
+                  "`layered_limb`");
     const std::size_t before = problems_.size();
     Reached reached;
     for (std::size_t i = 0; i < scenario_.steps.size(); ++i) {
@@ -76,8 +74,7 @@ class Checker {
                 "before it, or write `keep = \"displacement\"`");
     }
     const auto presses = [](const Step& step) { return std::holds_alternative<Indent>(step); };
-    if (!uniform && problems_.size() == before &&
-        std::none_of(scenario_.steps.begin(), scenario_.steps.end(), presses))
+    if (!uniform && problems_.size() == before && std::ranges::none_of(scenario_.steps, presses))
       problem("step.1",
               "no `step` presses the finger into the tissue; begin with `kind = \"indent\"`");
   }
@@ -101,10 +98,9 @@ class Checker {
     }
     const std::string to = quantity_text(indent.to.value, unit::mm);
     if (before.in_order && by_force)
-      before.in_order =
-          out_of_order(path, "`indent` goes to " + to +
-                                 " after a step to a force, which may have gone deeper; "
-                                 "give a force here too, or `retract` first");
+      before.in_order = out_of_order(path, "`indent` goes to " + to +
+                                               " after a step to a force, which may have gone "
+                                               "deeper; give a force here too, or `retract` first");
     else if (before.in_order && indent.to.value <= before.travel)
       before.in_order = out_of_order(path, "`indent` goes to " + to +
                                                ", which is not below the displacement of " +
@@ -134,10 +130,10 @@ class Checker {
     const double radius = scenario_.finger.radius;
     const std::string to = "`to` of " + quantity_text(travel, unit::mm);
     if (travel > radius)
-      problem(path,
-              to + " is deeper than the finger's radius of " + quantity_text(radius, unit::mm) +
-                  ", and a sphere presses with its lower half; press less deep, or give a larger "
-                  "`finger.radius`");
+      problem(path, to + " is deeper than the finger's radius of " +
+                        quantity_text(radius, unit::mm) +
+                        ", and a sphere presses with its lower half; press less deep, or give a "
+                        "larger `finger.radius`");
     const auto* box = std::get_if<Cuboid>(&scenario_.tissue.shape);
     if (travel > radius || box == nullptr) return;
     constexpr double through = 0.9;
@@ -164,8 +160,7 @@ class Checker {
     const bool ready = std::holds_alternative<MeshFile>(tissue.mesh);
     if (as_meshed && !ready)
       problem("tissue.shape",
-              "`as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., "
-              "unit = \"mm\" }`");
+              "`as_meshed` needs a ready mesh; set `tissue.mesh = { file = ..., unit = \"mm\" }`");
     if (meshed && half_space)
       problem("tissue.shape",
               "a `half_space` has no mesh; set `solver.model = \"hertz\"` or another shape");
@@ -181,16 +176,16 @@ class Checker {
       problem("tissue.mesh",
               "`kuhn` and `mirrored` cells fill a `cuboid` only; set `tissue.mesh = { kind = "
               "\"tetgen\", nodes = 728 }`");
-    const bool inclusions = std::any_of(
-        scenario_.regions.begin(), scenario_.regions.end(),
-        [](const Region& region) { return std::holds_alternative<Inclusion>(region.part); });
+    const bool inclusions = std::ranges::any_of(scenario_.regions, [](const Region& region) {
+      return std::holds_alternative<Inclusion>(region.part);
+    });
     if ((meshed || as_meshed) && inclusions && !std::holds_alternative<Tetgen>(tissue.mesh))
       problem("tissue.mesh",
-              as_meshed ? "a ready mesh takes no `sphere` region; give its cells a group in the "
-                          "file and name it in a `tagged` region, or give the body's surface as "
-                          "`tissue.shape`"
-                        : "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { "
-                          "kind = \"tetgen\", nodes = 1500 }`");
+              as_meshed
+                  ? "a ready mesh takes no `sphere` region; give its cells a group in the file and "
+                    "name it in a `tagged` region, or give the body's surface as `tissue.shape`"
+                  : "a `sphere` region is meshed by TetGen only; set `tissue.mesh = { kind = "
+                    "\"tetgen\", nodes = 1500 }`");
     slabs();
     directions();
     const auto* tetgen = std::get_if<Tetgen>(&tissue.mesh);
@@ -241,25 +236,24 @@ class Checker {
                         : !scenario_.tissue.base_side.empty() ? "tissue.base_side"
                                                               : nullptr;
     if (aside != nullptr && surface == nullptr && meshed == nullptr)
-      return problem(aside, "`" + std::string(aside) +
-                                "` is for bodies from files; leave it out, or give the body as a "
-                                "file");
+      return problem(aside,
+                     "`" + std::string(aside) +
+                         "` is for bodies from files; leave it out, or give the body as a file");
     const bool turned = aside != nullptr || up != "z";
     if (turned && (finger.x || finger.y))
       problem(finger.x ? "finger.x" : "finger.y",
               "`x` and `y` are for a finger that comes along -z; give the place as `finger.at`");
     if (aside == nullptr) return;
     if (scenario_.tissue.base == tissue::Base::frictionless)
-      problem("tissue.base",
-              "a body that is pressed from its side needs a bonded base; write `base "
-              "= \"bonded\"`");
+      problem(
+          "tissue.base",
+          "a body that is pressed from its side needs a bonded base; write `base = \"bonded\"`");
     for (std::size_t i = 0; i < scenario_.regions.size(); ++i)
       if (std::holds_alternative<Slab>(scenario_.regions[i].part))
-        problem(
-            "region." + std::to_string(i + 1),
-            "a `slab` is for a finger that comes from above; use a `tagged` region of a mesh, or "
-            "remove `" +
-                std::string(aside) + "`");
+        problem("region." + std::to_string(i + 1),
+                "a `slab` is for a finger that comes from above; use a `tagged` region of a mesh, "
+                "or remove `" +
+                    std::string(aside) + "`");
   }
 
   // Slabs of a cuboid must lie below its top; they must not overlap.
@@ -275,8 +269,7 @@ class Checker {
       else if (box != nullptr && slab->top >= box->size[2])
         problem(path + ".top",
                 "`top` reaches the cuboid's top, which the finger presses; make that layer the "
-                "`tissue` "
-                "and what lies below it a `slab`");
+                "`tissue` and what lies below it a `slab`");
       for (const auto& [bottom, top] : taken)
         if (slab->bottom < top && bottom < slab->top)
           problem(path + ".bottom", "another `slab` lies there too; give them different heights");
@@ -314,8 +307,8 @@ class Checker {
     if (scenario_.contact.coupling == contact::Coupling::resolved && solver.integrator &&
         (about(*solver.integrator).explicit_steps || solver.integrator == Integrator::modal))
       problem("solver.integrator",
-              "`resolved` solves for forces and motion together, which an explicit method "
-              "cannot do, and in `modal` steps they oscillate; set `integrator` to `quasi_static`, "
+              "`resolved` solves for forces and motion together, which an explicit method cannot "
+              "do, and in `modal` steps they oscillate; set `integrator` to `quasi_static`, "
               "`backward_difference` or `tr_bdf2`");
     if (scenario_.contact.spread == Contact::Spread::nearest_node && !scenario_.uniform() &&
         !contact::presses_one_node(scenario_.contact.coupling))
@@ -324,14 +317,13 @@ class Checker {
     if (solver.integrator == Integrator::modal &&
         solver.kinematics == Solver::Kinematics::nonlinear)
       problem("solver.kinematics",
-              "`modal` solves linear bodies only; set "
-              "`solver.kinematics = \"linear\"` or another integrator");
+              "`modal` solves linear bodies only; set `solver.kinematics = \"linear\"` or another "
+              "integrator");
     if (solver.integrator == Integrator::quasi_static &&
         scenario_.tissue.viscosity == tissue::Viscosity::nodal_drag)
       problem("solver.integrator",
-              "`quasi_static` has no nodal drag; set "
-              "`solver.integrator = \"backward_difference\"` or another "
-              "viscosity");
+              "`quasi_static` has no nodal drag; set `solver.integrator = \"backward_difference\"` "
+              "or another viscosity");
   }
 
   // Checks a model with a mesh that the scenario names.
@@ -354,10 +346,10 @@ class Checker {
                     coupled + ", or leave it out");
     }
     if (model.coupled() && solver.volume == Solver::Volume::none)
-      problem("solver.volume", "`" + std::string(model.word) +
-                                   "` always resist a change of volume; "
-                                   "set `solver.volume = \"nodal\"`, or " +
-                                   independent);
+      problem("solver.volume",
+              "`" + std::string(model.word) +
+                  "` always resist a change of volume; set `solver.volume = \"nodal\"`, or " +
+                  independent);
   }
 
   // Checks what `solid` does not know: it is at rest, and without friction.
@@ -389,9 +381,9 @@ class Checker {
     using tissue::Viscosity;
     const Tissue& tissue = scenario_.tissue;
     if (tissue.viscosity == Viscosity::prony && tissue.branches.empty())
-      problem("tissue.viscosity",
-              "`prony` needs branches; add a `[[tissue.branch]]` with `relaxation_time` and "
-              "`ratio`");
+      problem(
+          "tissue.viscosity",
+          "`prony` needs branches; add a `[[tissue.branch]]` with `relaxation_time` and `ratio`");
     if (scenario_.contact.viscosity != Contact::Viscosity::tissue || scenario_.uniform()) return;
     if (tissue.viscosity == Viscosity::none || tissue.viscosity == Viscosity::nodal_drag)
       problem("contact.viscosity",
@@ -427,16 +419,16 @@ class Checker {
     const double step = scenario_.solver.time_step.value_or(output.interval);
     const double ratio = output.interval / step;
     if (ratio > 1e6)
-      problem("solver.time_step", "`time_step` is " + quantity_text(step, unit::ms) +
-                                      ", more than a million times shorter than "
-                                      "`output.interval`; choose a longer one");
+      problem(
+          "solver.time_step",
+          "`time_step` is " + quantity_text(step, unit::ms) +
+              ", more than a million times shorter than `output.interval`; choose a longer one");
     else if (ratio < 0.5 || std::abs(ratio - std::round(ratio)) > 1e-6 * ratio)
-      problem("solver.time_step", "`time_step` is " + quantity_text(step, unit::ms) +
-                                      ", which does not fit a whole "
-                                      "number of times into `output.interval` of " +
-                                      quantity_text(output.interval, unit::ms) +
-                                      "; write `time_step = \"auto\"` "
-                                      "or a whole part of the interval");
+      problem("solver.time_step",
+              "`time_step` is " + quantity_text(step, unit::ms) +
+                  ", which does not fit a whole number of times into `output.interval` of " +
+                  quantity_text(output.interval, unit::ms) +
+                  "; write `time_step = \"auto\"` or a whole part of the interval");
   }
 
   void rows() {

@@ -121,10 +121,10 @@ Node value_of(const std::string& text, const std::string& unit, const Place& pla
 void refuse_folders(const std::string& key, const Node& value) {
   if (value.kind != Node::Kind::text || !names_file(key)) return;
   if (value.text.substr(0, value.text.find('#')).find('/') != std::string::npos)
-    throw InputError(value.place, "`" + value.text +
-                                      "` lies in another folder, where a copy of this table among "
-                                      "results would not find it; put the file beside the scenario "
-                                      "and write its bare name");
+    throw InputError(value.place,
+                     "`" + value.text +
+                         "` lies in another folder, where a copy of this table among results would "
+                         "not find it; put the file beside the scenario and write its bare name");
 }
 
 }  // namespace
@@ -138,8 +138,7 @@ std::string value_word(const std::string& key, const Node& value, std::size_t in
   const auto holds_more = [](const Node& node) {
     return node.kind == Node::Kind::table || node.kind == Node::Kind::array;
   };
-  if (value.kind == Node::Kind::table ||
-      std::any_of(value.items.begin(), value.items.end(), holds_more))
+  if (value.kind == Node::Kind::table || std::ranges::any_of(value.items, holds_more))
     return key.substr(key.rfind('.') + 1) + std::to_string(index + 1);
   if (value.kind == Node::Kind::array && !value.items.empty()) {
     std::vector<std::string> words;
@@ -175,14 +174,14 @@ CaseTable::CaseTable(std::string text, std::string path)
         column.key = trimmed(cell.text.substr(0, open));
       }
       if (column.key.empty())
-        throw InputError(column.place,
-                         "the header has an empty cell; name a key, as `tissue.young_modulus "
-                         "[kPa]`");
+        throw InputError(
+            column.place,
+            "the header has an empty cell; name a key, as `tissue.young_modulus [kPa]`");
       if (column.key.find(';') != std::string::npos || column.key.find('\t') != std::string::npos)
         throw InputError(column.place,
                          "the header has one cell, `" + column.key + "`; separate cells by commas");
-      if (std::any_of(columns_.begin(), columns_.end(),
-                      [&](const Column& other) { return other.key == column.key; }))
+      if (std::ranges::any_of(columns_,
+                              [&](const Column& other) { return other.key == column.key; }))
         throw InputError(column.place, "`" + column.key + "` has two columns; keep one of the two");
       columns_.push_back(column);
     }
@@ -378,8 +377,8 @@ std::vector<Setting> Design::settings(std::size_t i) const {
 std::vector<std::vector<Setting>> Design::extremes(std::size_t f) const {
   std::vector<std::vector<Setting>> all;
   const std::vector<Varied>& keys = factors_[f].keys;
-  const bool ranges = std::all_of(keys.begin(), keys.end(),
-                                  [](const Varied& one) { return one.interval.has_value(); });
+  const bool ranges =
+      std::ranges::all_of(keys, [](const Varied& one) { return one.interval.has_value(); });
   const std::size_t levels = kind_ == Kind::csv ? 0 : ranges ? 2 : factors_[f].levels();
   for (std::size_t level = 0; level < levels; ++level) {
     std::vector<Setting> settings;

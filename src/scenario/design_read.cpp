@@ -47,7 +47,7 @@ End read_end(const std::string& name, const Node& node) {
 void refuse_unknown_keys(const Node& table) {
   const std::vector<std::string> known{"from", "to", "points", "scale"};
   for (const Member& member : table.members) {
-    if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
+    if (std::ranges::find(known, member.key) != known.end()) continue;
     throw InputError(member.place, no_key_text(member.key, known));
   }
 }
@@ -60,9 +60,9 @@ void refuse_crowded(const std::string& key, const Interval& interval, const Plac
                           : (interval.high / steps - interval.low / steps) /
                                 std::max(std::abs(interval.low), std::abs(interval.high));
   if (std::abs(step) < 1e-11)
-    throw InputError(place, "`points` of " + ticked(key) +
-                                " are closer than 12 digits can distinguish; take fewer, or a "
-                                "wider range");
+    throw InputError(
+        place, "`points` of " + ticked(key) +
+                   " are closer than 12 digits can distinguish; take fewer, or a wider range");
 }
 
 // Whether `value`, found at `key`, is a range and not a table with keys of a scenario.
@@ -172,7 +172,7 @@ class DesignReader {
     if (design == nullptr) return Kind::grid;
     const Node& value = design->value;
     const std::vector<std::string>& words = design_words();
-    const auto word = std::find(words.begin(), words.end(), value.text);
+    const auto word = std::ranges::find(words, value.text);
     if (value.kind != Node::Kind::text || word == words.end())
       throw InputError(value.place, no_word_text("design", value, words));
     return static_cast<Kind>(word - words.begin());
@@ -272,10 +272,10 @@ class DesignReader {
     }
     if (!range && (value.kind != Node::Kind::array || value.items.empty())) {
       const std::string got = value.kind == Node::Kind::array ? "an empty one" : value.kind_name();
-      throw InputError(value.place, ticked(key) + " wants a list of values to run, got " + got +
-                                        "; write `\"" + key +
-                                        "\" = [\"...\", \"...\"]`, or a range, `{ from = ..., to = "
-                                        "... }`");
+      throw InputError(value.place,
+                       ticked(key) + " wants a list of values to run, got " + got + "; write `\"" +
+                           key +
+                           "\" = [\"...\", \"...\"]`, or a range, `{ from = ..., to = ... }`");
     }
     Varied varied{key, entry.place, {}, std::nullopt, value};
     if (range)
@@ -283,7 +283,7 @@ class DesignReader {
     else
       varied.levels = value.items;
     const auto same = [&](const Factor& other) { return !other.row && other.name == key; };
-    const auto known = std::find_if(factors.begin(), factors.end(), same);
+    const auto known = std::ranges::find_if(factors, same);
     if (known != factors.end() && from_command_line(entry.place)) {
       known->keys = {varied};
       return;
@@ -324,10 +324,10 @@ class DesignReader {
     const Varied& first = factor.keys.front();
     for (const Varied& other : factor.keys) {
       if (sampled() && first.interval.has_value() != other.interval.has_value())
-        throw InputError(other.place, ticked(first.key) + " and " + ticked(other.key) +
-                                          " change together in " + written() +
-                                          ", where one has a range and the other a list; give "
-                                          "both the same");
+        throw InputError(other.place,
+                         ticked(first.key) + " and " + ticked(other.key) + " change together in " +
+                             written() +
+                             ", where one has a range and the other a list; give both the same");
       same_length({first.key, {first}, true}, {other.key, {other}, true});
     }
   }
@@ -349,9 +349,10 @@ class DesignReader {
     const std::size_t dimensions = factors_.size() * (kind_ == Kind::saltelli ? 2 : 1);
     const double drawn = static_cast<double>(dimensions) * static_cast<double>(sampling.samples);
     if (sampled() && (dimensions > most_sobol_dimensions || drawn > most_drawn))
-      throw InputError(table_.place, "`sweep` would draw " + rounded_text(drawn) +
-                                         " numbers, which is more than a design holds; vary fewer "
-                                         "keys or take fewer samples");
+      throw InputError(
+          table_.place,
+          "`sweep` would draw " + rounded_text(drawn) +
+              " numbers, which is more than a design holds; vary fewer keys or take fewer samples");
     double count = sampled() ? static_cast<double>(sampling.samples) : 1.0;
     if (kind_ == Kind::grid)
       for (const Factor& factor : factors_) count *= static_cast<double>(factor.levels());

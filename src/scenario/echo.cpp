@@ -21,8 +21,8 @@ bool are(NodeKind kind, const Node& a, const Node& b) { return a.kind == kind &&
 
 bool are_steps(const Node& a, const Node& b) {
   const auto of_tables = [](const Node& list) {
-    return std::all_of(list.items.begin(), list.items.end(),
-                       [](const Node& item) { return item.kind == NodeKind::table; });
+    return std::ranges::all_of(list.items,
+                               [](const Node& item) { return item.kind == NodeKind::table; });
   };
   return are(NodeKind::array, a, b) && a.items.size() == b.items.size() && of_tables(a) &&
          of_tables(b);
@@ -52,8 +52,7 @@ void keep_common(Node& table, const Node& other) {
 // Adds to `table` the keys of `given` that it lacks.
 void add_missing(Node& table, const Node& given) {
   for (const Member& member : given.members) {
-    const auto here = std::find_if(table.members.begin(), table.members.end(),
-                                   [&](const Member& other) { return other.key == member.key; });
+    const auto here = std::ranges::find(table.members, member.key, &Member::key);
     if (here == table.members.end()) {
       table.members.push_back(member);
     } else if (are(NodeKind::table, here->value, member.value)) {
@@ -101,16 +100,14 @@ std::string spelled_out(const Case& one) { return toml_document(resolved(one)); 
 std::string echo(const Family& family, const Chosen& chosen) {
   const auto springs = [](const Case& one) { return poisson_in_contact_only(one.scenario); };
   std::string text =
-      "# The scenario as it was run: every default spelled out. It reads back to the "
-      "same run.\n";
-  if (std::any_of(family.cases.begin(), family.cases.end(), springs))
+      "# The scenario as it was run: every default spelled out. It reads back to the same run.\n";
+  if (std::ranges::any_of(family.cases, springs))
     text += std::string("# tissue.poisson_ratio ") + poisson_in_contact_only_text + ".\n";
   const std::vector<std::string>& keys = family.design.keys();
-  if (std::find(keys.begin(), keys.end(), "tissue.material") != keys.end())
+  if (std::ranges::find(keys, "tissue.material") != keys.end())
     for (const Case& one : family.cases) text += properties_comment(one);
-  const bool alike = std::all_of(chosen.begin(), chosen.end(), [&](const auto& one) {
-    return one.second == chosen.front().second;
-  });
+  const bool alike = std::ranges::all_of(
+      chosen, [&](const auto& one) { return one.second == chosen.front().second; });
   for (const auto& [name, words] : chosen) {
     text +=
         "# " + std::string(alike ? "`auto`" : name + ", `auto`") + " stands for: " + words + "\n";

@@ -24,9 +24,8 @@ struct Made {
 // Adds the problems that are new, because every case may repeat the same ones.
 void add_new(std::vector<Problem>& all, const std::vector<Problem>& more) {
   for (const Problem& problem : more) {
-    const bool known = std::any_of(all.begin(), all.end(), [&](const Problem& other) {
-      return other.text() == problem.text();
-    });
+    const bool known = std::ranges::any_of(
+        all, [&](const Problem& other) { return other.text() == problem.text(); });
     if (!known) all.push_back(problem);
   }
 }
@@ -72,7 +71,10 @@ Made make(const Family& family, const std::vector<Setting>& settings, Sources& s
   std::vector<Problem>& problems = made.reading.problems;
   complete(scenario, document);
   made.one.materials = find_materials(scenario, document, sources, problems);
-  if (problems.empty()) check(made.one, document, made.together);
+  if (problems.empty()) {
+    scenario.tissue.viscosity = law_of(scenario, made.one.materials.tissue, document);
+    check(made.one, document, made.together);
+  }
   made.one.files = sources.used;
   made.one.folder = family.folder;
   return made;
@@ -87,33 +89,159 @@ class Trial {
  public:
   explicit Trial(Family& family) : family_(family) {}
 
-  // Adds files to the family's inputs; two different files with one name are a problem.
-  void remember(const std::vector<Sources::ReadFile>& read);
+  // Adds files to the family's inputs; two different files with one name are a problem. The first
+  // input is the scenario itself; results contain its echo, `scenario.toml`, instead.
+  void remember(const std::vector<Sources::ReadFile>& read) {
+    for (const auto& [added, place] : read) {
+      std::vector<InputFile>& inputs = family_.inputs;
+      const auto known =
+          std::find_if(inputs.begin() + 1, inputs.end(),
+                       [&name = added.name](const InputFile& other) { return other.name == name; });
+      if (added.name == "scenario.toml")
+        add_problems({{place, ticked(added.name) +
+                                  " is the name of the echo among the results; rename the file"}});
+      else if (known == inputs.end())
+        inputs.push_back(added);
+      else if (known->content != added.content)
+        add_problems({{place, "two different files are called " + ticked(added.name) +
+                                  ", and a result folder holds a copy of each; rename one"}});
+    }
+  }
 
   // Makes case i; the first case made becomes the family's base.
-  Case make(std::size_t i);
+  Case make(std::size_t i) {
+    const std::vector<Setting> settings = family_.design.settings(i);
+    Made made = take(settings);
+    if (!begun_) family_.base = made.as_read;
+    begun_ = true;
+    add_problems(made.reading.problems);
+    add_problems(made.together);
+    const Design::Kind kind = family_.design.kind();
+    if ((kind == Design::Kind::list || kind == Design::Kind::csv) && problems_.empty())
+      refuse_equal(rows_, made, settings, "");
+    made.one.name = case_name(family_, i, made.one.swept);
+    return made.one;
+  }
 
   // Builds all cases, or a spread sample of `most`, plus every table row that names a file.
-  void try_cases(std::size_t most);
+  void try_cases(std::size_t most) {
+    const Design& design = family_.design;
+    const std::size_t count = design.count();
+    const std::size_t tried = std::min(count, most);
+    std::set<std::string> seen;
+    for (std::size_t k = 0; k < tried; ++k) {
+      const std::size_t i = tried == count || k == 0 ? k : k * (count - 1) / (tried - 1);
+      (void)make(i);
+      seen.insert(files_of(design.settings(i)));
+    }
+    if (design.kind() != Design::Kind::csv || tried == count) return;
+    for (std::size_t i = 0; i < count; ++i)
+      if (seen.insert(files_of(design.settings(i))).second) (void)make(i);
+  }
 
   // Checks that case names are different, and that `display_scale` uses existing names.
-  void check_names(const Place& sweep);
+  void check_names(const Place& sweep) {
+    if (!problems_.empty()) return;
+    std::vector<std::string> names;
+    for (const Case& one : family_.cases) names.push_back(one.name);
+    for (const auto& [name, factor] : family_.base.output.display_scale) {
+      if (std::ranges::find(names, name) != names.end()) continue;
+      add_problems({{place_of(family_.document, "output.display_scale." + name),
+                     "`display_scale` names no case `" + name + "`; " +
+                         did_you_mean(name, names, "cases: " + joined(names, ", "))}});
+    }
+    const std::set<std::string> different(names.begin(), names.end());
+    if (different.size() != names.size())
+      add_problems({{sweep, "two cases of `sweep` have the same name; give each value once"}});
+  }
 
   // Checks every value of a list and both ends of a range, with the other factors as in the first
   // case: they must be within the key's limits and different from each other. Checks also that
   // every swept key is read by at least one case.
-  void check_factors();
+  void check_factors() {
+    if (!problems_.empty() || family_.design.empty()) return;
+    const Design::Kind kind = family_.design.kind();
+    if (kind != Design::Kind::list && kind != Design::Kind::csv)
+      for (std::size_t f = 0; f < family_.design.factors().size(); ++f) check_values(f);
+    if (problems_.empty()) check_swept_keys();
+  }
 
   // Throws InputError with all problems, if there are any.
-  void finish();
+  void finish() {
+    family_.title = family_.base.title.empty() ? family_.name : family_.base.title;
+    sort_by_place(problems_);
+    if (!problems_.empty()) throw InputError(problems_);
+  }
 
  private:
-  Made take(const std::vector<Setting>& settings);
+  void add_problems(const std::vector<Problem>& problems) {
+    for (Problem problem : problems) {
+      // The remedy for a range with values that are not whole is a list.
+      for (const Factor& factor : family_.design.factors())
+        for (const Varied& varied : factor.keys)
+          if (varied.interval && problem.place == varied.interval->from.place &&
+              problem.message.find("wants a whole number") != std::string::npos)
+            problem.message =
+                ticked(varied.key) +
+                " wants whole numbers, which a range does not keep to; give a list, as `[1, 2, 3]`";
+      add_new(problems_, {problem});
+    }
+  }
+
+  Made take(const std::vector<Setting>& settings) {
+    Sources sources{family_.folder, family_.library};
+    Made made = scenario::make(family_, settings, sources);
+    add_new(family_.notes, made.reading.notes);
+    family_.library.tissues.merge(sources.found.tissues);
+    family_.library.geometry.merge(sources.found.geometry);
+    remember(sources.read);
+    for (const Setting& setting : settings) {
+      const Unread* const unread = find_unread(setting.key, made.reading);
+      if (unread == nullptr)
+        read_[setting.key] = true;
+      else
+        unread_[setting.key] = unread->when;
+    }
+    contact_only_ = contact_only_ || poisson_in_contact_only(made.one.scenario);
+    return made;
+  }
+
   void refuse_equal(std::map<std::string, std::string>& seen, const Made& made,
-                    const std::vector<Setting>& values, const std::string& of);
-  void add_problems(const std::vector<Problem>& problems);
-  void check_values(std::size_t factor);
-  void check_swept_keys();
+                    const std::vector<Setting>& values, const std::string& of) {
+    const auto [known, added] = seen.emplace(all_values(made.as_read), shown_words(values));
+    if (!added)
+      add_problems(
+          {{values.front().value.place, known->second + " and " + shown_words(values) + of +
+                                            " make the same case; keep one of them"}});
+  }
+
+  void check_values(std::size_t factor) {
+    std::vector<Setting> settings = family_.design.settings(0);
+    std::map<std::string, std::string> seen;  // words, by all values read
+    for (const std::vector<Setting>& values : family_.design.extremes(factor)) {
+      for (const Setting& value : values)
+        *std::ranges::find(settings, value.key, &Setting::key) = value;
+      const Made made = take(settings);
+      add_problems(made.reading.problems);
+      // A combination in a grid is a case; one in a sample may be no case, so it is not refused.
+      if (family_.design.kind() == Design::Kind::grid) add_problems(made.together);
+      if (made.reading.problems.empty())
+        refuse_equal(seen, made, values, " of " + ticked(family_.design.factors()[factor].name));
+    }
+  }
+
+  void check_swept_keys() {
+    for (const Setting& setting : family_.design.settings(0)) {
+      const auto unread = unread_.find(setting.key);
+      if (unread != unread_.end() && !read_.contains(setting.key))
+        add_problems({{setting.place,
+                       ticked(setting.key) + " is swept and changes nothing: it is used only " +
+                           unread->second + "; take it out of `[sweep]` or change that"}});
+      if (setting.key == "tissue.poisson_ratio" && contact_only_)
+        add_new(family_.notes,
+                {{setting.place, ticked(setting.key) + " " + poisson_in_contact_only_text}});
+    }
+  }
 
   Family& family_;
   bool begun_ = false;
@@ -124,152 +252,6 @@ class Trial {
   std::map<std::string, bool> read_;           // swept keys that some case has read
   bool contact_only_ = false;                  // poisson_in_contact_only() holds for some case
 };
-
-void Trial::add_problems(const std::vector<Problem>& problems) {
-  for (Problem problem : problems) {
-    // The remedy for a range with values that are not whole is a list.
-    for (const Factor& factor : family_.design.factors())
-      for (const Varied& varied : factor.keys)
-        if (varied.interval && problem.place == varied.interval->from.place &&
-            problem.message.find("wants a whole number") != std::string::npos)
-          problem.message = ticked(varied.key) +
-                            " wants whole numbers, which a range does not keep to; give a list, "
-                            "as `[1, 2, 3]`";
-    add_new(problems_, {problem});
-  }
-}
-
-// The first input is the scenario itself; results contain its echo, `scenario.toml`, instead.
-void Trial::remember(const std::vector<Sources::ReadFile>& read) {
-  for (const auto& [added, place] : read) {
-    std::vector<InputFile>& inputs = family_.inputs;
-    const auto known =
-        std::find_if(inputs.begin() + 1, inputs.end(),
-                     [&name = added.name](const InputFile& other) { return other.name == name; });
-    if (added.name == "scenario.toml")
-      add_problems({{place, ticked(added.name) +
-                                " is the name of the echo among the results; rename the file"}});
-    else if (known == inputs.end())
-      inputs.push_back(added);
-    else if (known->content != added.content)
-      add_problems({{place, "two different files are called " + ticked(added.name) +
-                                ", and a result folder holds a copy of each; rename one"}});
-  }
-}
-
-Made Trial::take(const std::vector<Setting>& settings) {
-  Sources sources{family_.folder, family_.library};
-  Made made = scenario::make(family_, settings, sources);
-  add_new(family_.notes, made.reading.notes);
-  family_.library.tissues.merge(sources.found.tissues);
-  family_.library.geometry.merge(sources.found.geometry);
-  remember(sources.read);
-  for (const Setting& setting : settings) {
-    const Unread* const unread = find_unread(setting.key, made.reading);
-    if (unread == nullptr)
-      read_[setting.key] = true;
-    else
-      unread_[setting.key] = unread->when;
-  }
-  contact_only_ = contact_only_ || poisson_in_contact_only(made.one.scenario);
-  return made;
-}
-
-// Refuses values that make the same case as earlier ones; `of` names what the values belong to.
-void Trial::refuse_equal(std::map<std::string, std::string>& seen, const Made& made,
-                         const std::vector<Setting>& values, const std::string& of) {
-  const auto [known, added] = seen.emplace(all_values(made.as_read), shown_words(values));
-  if (!added)
-    add_problems({{values.front().value.place, known->second + " and " + shown_words(values) + of +
-                                                   " make the same case; keep one of them"}});
-}
-
-Case Trial::make(std::size_t i) {
-  const std::vector<Setting> settings = family_.design.settings(i);
-  Made made = take(settings);
-  if (!begun_) family_.base = made.as_read;
-  begun_ = true;
-  add_problems(made.reading.problems);
-  add_problems(made.together);
-  const Design::Kind kind = family_.design.kind();
-  if ((kind == Design::Kind::list || kind == Design::Kind::csv) && problems_.empty())
-    refuse_equal(rows_, made, settings, "");
-  made.one.name = case_name(family_, i, made.one.swept);
-  return made.one;
-}
-
-void Trial::try_cases(std::size_t most) {
-  const Design& design = family_.design;
-  const std::size_t count = design.count();
-  const std::size_t tried = std::min(count, most);
-  std::set<std::string> seen;
-  for (std::size_t k = 0; k < tried; ++k) {
-    const std::size_t i = tried == count || k == 0 ? k : k * (count - 1) / (tried - 1);
-    (void)make(i);
-    seen.insert(files_of(design.settings(i)));
-  }
-  if (design.kind() != Design::Kind::csv || tried == count) return;
-  for (std::size_t i = 0; i < count; ++i)
-    if (seen.insert(files_of(design.settings(i))).second) (void)make(i);
-}
-
-void Trial::check_names(const Place& sweep) {
-  if (!problems_.empty()) return;
-  std::vector<std::string> names;
-  for (const Case& one : family_.cases) names.push_back(one.name);
-  for (const auto& [name, factor] : family_.base.output.display_scale) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    add_problems({{place_of(family_.document, "output.display_scale." + name),
-                   "`display_scale` names no case `" + name + "`; " +
-                       did_you_mean(name, names, "cases: " + joined(names, ", "))}});
-  }
-  const std::set<std::string> different(names.begin(), names.end());
-  if (different.size() != names.size())
-    add_problems({{sweep, "two cases of `sweep` have the same name; give each value once"}});
-}
-
-void Trial::check_values(std::size_t factor) {
-  std::vector<Setting> settings = family_.design.settings(0);
-  std::map<std::string, std::string> seen;  // words, by all values read
-  for (const std::vector<Setting>& values : family_.design.extremes(factor)) {
-    for (const Setting& value : values)
-      *std::find_if(settings.begin(), settings.end(),
-                    [&](const Setting& other) { return other.key == value.key; }) = value;
-    const Made made = take(settings);
-    add_problems(made.reading.problems);
-    // A combination in a grid is a case; one in a sample may be no case, so it is not refused.
-    if (family_.design.kind() == Design::Kind::grid) add_problems(made.together);
-    if (made.reading.problems.empty())
-      refuse_equal(seen, made, values, " of " + ticked(family_.design.factors()[factor].name));
-  }
-}
-
-void Trial::check_factors() {
-  if (!problems_.empty() || family_.design.empty()) return;
-  const Design::Kind kind = family_.design.kind();
-  if (kind != Design::Kind::list && kind != Design::Kind::csv)
-    for (std::size_t f = 0; f < family_.design.factors().size(); ++f) check_values(f);
-  if (problems_.empty()) check_swept_keys();
-}
-
-void Trial::check_swept_keys() {
-  for (const Setting& setting : family_.design.settings(0)) {
-    const auto unread = unread_.find(setting.key);
-    if (unread != unread_.end() && !read_.contains(setting.key))
-      add_problems(
-          {{setting.place, ticked(setting.key) + " is swept and changes nothing: it is used only " +
-                               unread->second + "; take it out of `[sweep]` or change that"}});
-    if (setting.key == "tissue.poisson_ratio" && contact_only_)
-      add_new(family_.notes,
-              {{setting.place, ticked(setting.key) + " " + poisson_in_contact_only_text}});
-  }
-}
-
-void Trial::finish() {
-  family_.title = family_.base.title.empty() ? family_.name : family_.base.title;
-  sort_by_place(problems_);
-  if (!problems_.empty()) throw InputError(problems_);
-}
 
 }  // namespace
 
@@ -392,8 +374,7 @@ Family outline(const std::string& path, const std::vector<std::string>& settings
 }
 
 const Case& case_named(const Family& family, const std::string& name) {
-  return *std::find_if(family.cases.begin(), family.cases.end(),
-                       [&](const Case& one) { return one.name == name; });
+  return *std::ranges::find(family.cases, name, &Case::name);
 }
 
 Case make_case(const Family& family, std::size_t i) {

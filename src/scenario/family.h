@@ -139,12 +139,16 @@ void complete(Scenario& scenario, const Node& document);
 // without inclusions, else TetGen's.
 [[nodiscard]] Mesh mesh_left_open(const Scenario& scenario);
 
-// Looks up the materials, reads the geometry files of the scenario, and makes the tissue elastic
-// where its material has no time for the default viscous law and nothing asks for one. Adds to
-// `problems`, with places in the document. If there are problems already, only the materials are
-// looked up, so that no mistake is reported twice.
-[[nodiscard]] Materials find_materials(Scenario& scenario, const Node& document, Sources& sources,
-                                       std::vector<Problem>& problems);
+// The tissue's law of time: none where its material has no time for the default one and nothing
+// asks for it.
+[[nodiscard]] tissue::Viscosity law_of(const Scenario& scenario, const material::Tissue& material,
+                                       const Node& document);
+
+// Looks up the materials, and reads the geometry files of the scenario. Adds to `problems`, with
+// places in the document. If there are problems already, only the materials are looked up, so that
+// no mistake is reported twice.
+[[nodiscard]] Materials find_materials(const Scenario& scenario, const Node& document,
+                                       Sources& sources, std::vector<Problem>& problems);
 
 // Checks that involve several keys: the order of steps, incompatible methods, depths beyond the
 // specimen. Adds to `problems`.

@@ -42,7 +42,7 @@ Conditions::Conditions(const Scenario& scenario) {
   formula = {!model || traits(*model).formula(),
              "with " + models_that(std::mem_fn(&ModelTraits::formula)), Use::Otherwise::note};
   // If steps of both kinds are mixed, the mixture is reported instead of the keys of the finger.
-  const bool presses = !std::all_of(scenario.steps.begin(), scenario.steps.end(), loads_end_faces);
+  const bool presses = !std::ranges::all_of(scenario.steps, loads_end_faces);
   finger = {presses || scenario.steps.empty(),
             "by steps with a finger (indent, hold, retract, slide)"};
   held = (model ? traits(*model).sides : meshed) ? finger : mesh;
@@ -65,16 +65,14 @@ void finger_fields(FieldVisitor& visitor, Finger& finger) {
   visitor.quantity_or(
       "auto",
       {"x",
-       "Where it presses, in the coordinates of the body; `auto`: the middle of the "
-       "specimen."},
+       "Where it presses, in the coordinates of the body; `auto`: the middle of the specimen."},
       finger.x, unit::mm, {});
   visitor.quantity_or("auto", {"y", "Likewise."}, finger.y, unit::mm, {});
-  visitor.quantity_list(
-      {"at",
-       "A place in the coordinates of a body from a file: three lengths, in place "
-       "of `x` and `y`. The finger presses the nearest place of the surface, "
-       "along its normal unless `towards` is given."},
-      finger.at, unit::mm, {});
+  visitor.quantity_list({"at",
+                         "A place in the coordinates of a body from a file: three lengths, in "
+                         "place of `x` and `y`. The finger presses the nearest place of the "
+                         "surface, along its normal unless `towards` is given."},
+                        finger.at, unit::mm, {});
   visitor.text({"towards",
                 "The direction of the press in the coordinates of a body from a file, as `up` of "
                 "`tissue.shape`. Default: down."},
@@ -173,28 +171,26 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
                       solver.time_step, unit::ms, above(0));
   visitor.count_or("auto",
                    {"substeps",
-                    "Equal parts of a time step; `auto`: as many as stability, or the accuracy "
-                    "of implicit methods, requires.",
+                    "Equal parts of a time step; `auto`: as many as stability, or the accuracy of "
+                    "implicit methods, requires.",
                     use.mesh},
                    solver.substeps, between(1, 1e8));
   visitor.flag(
       of_the_paper({"allow_unstable",
                     "Run an explicit step above the stability limit, to see it fail.", stepped}),
       solver.allow_unstable);
-  visitor.count_or(
-      "all",
-      of_the_paper({"rings",
-                    "Rings of nodes around the contact that move; other nodes are fixed. This is "
-                    "the paper's method, for comparisons with it: a frame of the whole mesh takes "
-                    "less time by `modal`.",
-                    use.pressed_mesh}),
-      solver.rings, between(1, 1000));
+  visitor.count_or("all",
+                   of_the_paper({"rings",
+                                 "Rings of nodes around the contact that move; other nodes are "
+                                 "fixed. This is the paper's method, for comparisons with it: a "
+                                 "frame of the whole mesh takes less time by `modal`.",
+                                 use.pressed_mesh}),
+                   solver.rings, between(1, 1000));
   visitor.count_or(
       "auto",
       {"modes",
-       "The lowest modes, which `modal` keeps; the others follow without inertia. "
-       "`auto`: 128, from 1000 nodes on 32, or all of them where the force follows from the "
-       "whole motion.",
+       "The lowest modes, which `modal` keeps; the others follow without inertia. `auto`: 128, "
+       "from 1000 nodes on 32, or all of them where the force follows from the whole motion.",
        solver.integrator == Integrator::modal || !solver.integrator
            ? use.pressed_mesh
            : Use{false, "with `integrator = \"modal\"`", Use::Otherwise::note}},
@@ -204,12 +200,11 @@ void solver_fields(FieldVisitor& visitor, Solver& solver, const Conditions& use)
 void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use) {
   visitor.quantity({"interval", "Time between rows of the CSV files."}, output.interval, unit::ms,
                    above(0));
-  visitor.quantity_list(
-      {"force_at",
-       "Depths at which the force of the first `indent` is written to findings.csv, such "
-       "as `force_at_1_mm_N`.",
-       use.finger},
-      output.force_at, unit::mm, above(0));
+  visitor.quantity_list({"force_at",
+                         "Depths at which the force of the first `indent` is written to "
+                         "findings.csv, such as `force_at_1_mm_N`.",
+                         use.finger},
+                        output.force_at, unit::mm, above(0));
   visitor.flag({"pressure_maps",
                 "An EXR map at the end of every step.",
                 {use.finger.used, use.finger.when, Use::Otherwise::note}},
@@ -291,20 +286,20 @@ static void fields(FieldVisitor& visitor, SurfaceFile& shape) {
                 "The direction in the file's coordinates that points up, against the way of the "
                 "finger: `x`, `-y`, or three numbers such as `0 0.2 1`."},
                shape.up);
-  visitor.flag({"repair",
-                "Whether small faults are mended, with a note: vertices in one place, doubled "
-                "triangles, sheets that share a vertex, triangles that face inwards, holes, and "
-                "triangles that cross."},
-               shape.repair);
+  visitor.flag(
+      {"repair",
+       "Whether small faults are mended, with a note: vertices in one place, doubled triangles, "
+       "sheets that share a vertex, triangles that face inwards, holes, and triangles that cross."},
+      shape.repair);
   visitor.number({"repair_up_to",
                   "Share of the area that holes, or triangles that cross, may have to be mended."},
                  shape.repair_up_to, {.low = 0, .high = 0.5});
-  visitor.count_or("auto",
-                   {"part",
-                    "Which of several closed parts the body is, by falling volume, filled; `auto`: "
-                    "the largest, or the one nearest to `finger.at`, with the parts inside it as "
-                    "cavities, and a note."},
-                   shape.part, between(1, 1e6));
+  visitor.count_or(
+      "auto",
+      {"part",
+       "Which of several closed parts the body is, by falling volume, filled; `auto`: the largest, "
+       "or the one nearest to `finger.at`, with the parts inside it as cavities, and a note."},
+      shape.part, between(1, 1e6));
 }
 static void fields(FieldVisitor& visitor, AsMeshed& shape) {
   visitor.text({"up", "As for a surface from a file."}, shape.up);
@@ -312,8 +307,8 @@ static void fields(FieldVisitor& visitor, AsMeshed& shape) {
 
 static void grading(FieldVisitor& visitor, double& ratio) {
   visitor.number({"grading",
-                  "Size of the largest cells, at the far ends, over that of the smallest, "
-                  "under the finger; 1: all equal."},
+                  "Size of the largest cells, at the far ends, over that of the smallest, under "
+                  "the finger; 1: all equal."},
                  ratio, between(1, 1000));
 }
 static void refinement(FieldVisitor& visitor, Refinement& mesh) {
@@ -412,10 +407,8 @@ static void fields(FieldVisitor& visitor, TaggedRegion& region) {
 static void fields(FieldVisitor& visitor, Inclusion& region) {
   visitor.quantities({"centre",
                       "In the coordinates of the file that gives the body, or from the lowest "
-                      "corner of a shape that "
-                      "palpate makes; `palpate explain SCENARIO` prints the body's box. 99 % of "
-                      "the inclusion must lie in "
-                      "the body."},
+                      "corner of a shape that palpate makes; `palpate explain SCENARIO` prints the "
+                      "body's box. 99 % of the inclusion must lie in the body."},
                      region.centre, unit::mm, {});
   visitor.quantity({"radius", "Of the inclusion."}, region.radius, unit::mm, above(0));
 }
@@ -444,8 +437,8 @@ void substance_fields(FieldVisitor& visitor, Region& region) {
 
 void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
   visitor.text({"material",
-                "A tissue of materials/chen2007.toml (skin, muscle, bone, ligament, upper_leg), "
-                "or `file.toml#name` of your own."},
+                "A tissue of materials/chen2007.toml (skin, muscle, bone, ligament, upper_leg), or "
+                "`file.toml#name` of your own."},
                tissue.material);
   visitor.table({"shape", "The specimen's shape."},
                 [&](FieldVisitor& inner) { inner.alternatives(tissue.shape); });
@@ -455,17 +448,16 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                 [&](FieldVisitor& inner) { inner.alternatives(tissue.mesh); });
   visitor.quantity({"young_modulus", "Of the relaxed tissue. Default: the material's."},
                    tissue.young_modulus, unit::kPa, above(0));
-  visitor.number(
-      {"poisson_ratio",
-       "Default: the material's. With `mass_spring` it affects the contact and the volume "
-       "term only: independent springs have a ratio of their own, near 1/4."},
-      tissue.poisson_ratio,
-      {.low = -1,
-       .high = 0.5,
-       .low_allowed = false,
-       .high_allowed = false,
-       .remedy = "for a tissue that keeps its volume give 0.49, which lowers the force by 1.3 % on "
-                 "deep tissue and by more on a thin layer"});
+  visitor.number({"poisson_ratio",
+                  "Default: the material's. With `mass_spring` it affects the contact and the "
+                  "volume term only: independent springs have a ratio of their own, near 1/4."},
+                 tissue.poisson_ratio,
+                 {.low = -1,
+                  .high = 0.5,
+                  .low_allowed = false,
+                  .high_allowed = false,
+                  .remedy = "for a tissue that keeps its volume give 0.49, which lowers the force "
+                            "by 1.3 % on deep tissue and by more on a thin layer"});
   visitor.quantity({"density", "Default: the material's.", use.mesh_physics}, tissue.density,
                    unit::density, above(0));
   visitor.choice({"viscosity",
@@ -503,28 +495,25 @@ void fields(FieldVisitor& visitor, Tissue& tissue, const Conditions& use) {
                    tissue.drag, unit::per_second, at_least(0));
   visitor.choice_or(auto_bases, {"base", "How the base of the specimen is supported.", use.based},
                     tissue.base, bases);
-  visitor.text({"base_side",
-                "The side of a body from a file that is fixed: a direction in its coordinates, as "
-                "`up` of `tissue.shape`, or the name or number of a group of faces of a Gmsh or "
-                "MEDIT file. "
-                "`base_height` is then along the opposite direction. Default: the underside.",
-                use.held},
-               tissue.base_side);
+  visitor.text(
+      {"base_side",
+       "The side of a body from a file that is fixed: a direction in its coordinates, as `up` of "
+       "`tissue.shape`, or the name or number of a group of faces of a Gmsh or MEDIT file. "
+       "`base_height` is then along the opposite direction. Default: the underside.",
+       use.held},
+      tissue.base_side);
   visitor.quantity_or(
       "auto",
       {"base_height",
-       "The surface up to this height, in the coordinates of the body, is its base; "
-       "`auto`: the underside where it is flat, else the lowest tenth of the "
-       "specimen.",
+       "The surface up to this height, in the coordinates of the body, is its base; `auto`: the "
+       "underside where it is flat, else the lowest tenth of the specimen.",
        use.held},
       tissue.base_height, unit::mm, {});
 }
 
 }  // namespace
 
-bool PlainScenario::uniform() const {
-  return std::any_of(steps.begin(), steps.end(), loads_end_faces);
-}
+bool PlainScenario::uniform() const { return std::ranges::any_of(steps, loads_end_faces); }
 
 bool Scenario::meshed() const {
   return solver.model ? traits(*solver.model).meshed()

@@ -12,8 +12,7 @@ namespace palpate::scenario {
 namespace {
 
 void use(const std::string& name, Sources& sources) {
-  if (std::find(sources.used.begin(), sources.used.end(), name) == sources.used.end())
-    sources.used.push_back(name);
+  if (std::ranges::find(sources.used, name) == sources.used.end()) sources.used.push_back(name);
 }
 
 const material::Tissue& find_material(const std::string& name, const Place& place,
@@ -80,29 +79,21 @@ bool gives_viscosity(const Node& document, const char* table) {
   return found != nullptr && found->value.find("viscosity") != nullptr;
 }
 
-// Makes the tissue elastic where its material has no time for the default viscous law and nothing
-// asks for viscosity. Throws InputError if neither the scenario nor its material has a property
-// that is required.
-void require_tissue(Scenario& scenario, const material::Tissue& material, const Node& document) {
-  Tissue& tissue = scenario.tissue;
+// Throws InputError if neither the scenario nor its material has a property that is required.
+void require_tissue(const Scenario& scenario, const material::Tissue& material,
+                    const Node& document) {
+  const Tissue& tissue = scenario.tissue;
   if (tissue.poisson_ratio.value_or(material.poisson_ratio.value) >= 0.5)
     throw InputError(place_of(document, "tissue.material"),
                      "`" + tissue.material +
-                         "` has a Poisson's ratio of 0.5, and a tissue needs "
-                         "less; set `tissue.poisson_ratio = 0.49`");
-  const bool viscous_test =
-      std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& step) {
-        return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
-      });
-  const bool asked =
-      gives_viscosity(document, "tissue") || viscous_test || viscous_contact(scenario);
-  if (!asked && !tissue.retardation_time && !material.retardation_time)
-    tissue.viscosity = tissue::Viscosity::none;
+                         "` has a Poisson's ratio of 0.5, and a tissue needs less; set "
+                         "`tissue.poisson_ratio = 0.49`");
   // If viscosity is not computed, viscous properties only serve estimates and may be missing.
   if (!scenario.meshed() && !viscous_contact(scenario)) return;
+  const tissue::Viscosity used = law_of(scenario, material, document);
   const auto require = [&](tissue::Viscosity law, const std::optional<double>& given,
                            const std::optional<material::Sourced>& from, const char* key) {
-    if (tissue.viscosity == law && !given && !from)
+    if (used == law && !given && !from)
       throw InputError(place_of(document, "tissue.material"),
                        "`" + tissue.material + "` has no `" + key + "`; give `tissue." + key +
                            "`, or write `" +
@@ -152,9 +143,9 @@ void complete_contact(Scenario& scenario, const Node& document) {
 }  // namespace
 
 Mesh mesh_left_open(const Scenario& scenario) {
-  const bool inclusions = std::any_of(
-      scenario.regions.begin(), scenario.regions.end(),
-      [](const Region& region) { return std::holds_alternative<Inclusion>(region.part); });
+  const bool inclusions = std::ranges::any_of(scenario.regions, [](const Region& region) {
+    return std::holds_alternative<Inclusion>(region.part);
+  });
   Mesh mesh = Tissue{}.mesh;
   if (inclusions || !std::holds_alternative<Cuboid>(scenario.tissue.shape)) mesh = Tetgen{};
   refinement(mesh).refine = true;
@@ -166,7 +157,18 @@ void complete(Scenario& scenario, const Node& document) {
   complete_shape(scenario, document);
 }
 
-Materials find_materials(Scenario& scenario, const Node& document, Sources& sources,
+tissue::Viscosity law_of(const Scenario& scenario, const material::Tissue& material,
+                         const Node& document) {
+  const bool viscous_test = std::ranges::any_of(scenario.steps, [](const Step& step) {
+    return std::holds_alternative<Creep>(step) || std::holds_alternative<Relax>(step);
+  });
+  const bool asked =
+      gives_viscosity(document, "tissue") || viscous_test || viscous_contact(scenario);
+  const bool timed = scenario.tissue.retardation_time || material.retardation_time;
+  return asked || timed ? scenario.tissue.viscosity : tissue::Viscosity::none;
+}
+
+Materials find_materials(const Scenario& scenario, const Node& document, Sources& sources,
                          std::vector<Problem>& problems) {
   const bool readable = problems.empty();
   Materials materials;

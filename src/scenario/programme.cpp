@@ -88,8 +88,9 @@ std::optional<std::string> compression_problem(const Scenario& scenario, const C
     return is + "without nodal drag; write another `tissue.viscosity`";
   if (compress.platen != upper_platen(scenario) ||
       (compress.platen == tissue::Base::bonded &&
-       !std::all_of(scenario.steps.begin(), scenario.steps.end(),
-                    [](const Step& step) { return std::holds_alternative<Compress>(step); })))
+       !std::ranges::all_of(scenario.steps, [](const Step& step) {
+         return std::holds_alternative<Compress>(step);
+       })))
     return "all steps of a scenario have one upper platen; put steps with another `platen` into "
            "another scenario";
   return std::nullopt;

@@ -62,11 +62,9 @@ struct HalfSpace {
   std::optional<double> curvature_2;  // 1/m, across the first; empty: the same
 };
 struct SurfaceFile {
-  static constexpr Word word{
-      "file",
-      "A closed surface from an STL, OBJ, PLY, OFF, VTP or VTU file. For a mesh, "
-      "triangles that are too fine, "
-      "and needles, are replaced."};
+  static constexpr Word word{"file",
+                             "A closed surface from an STL, OBJ, PLY, OFF, VTP or VTU file. For a "
+                             "mesh, triangles that are too fine, and needles, are replaced."};
   std::string file;
   std::string unit;            // symbol of a length unit
   std::string up = "z";        // the direction of the file's coordinates that points up
@@ -105,9 +103,8 @@ struct Tetgen : Refinement {
 struct MeshFile : Refinement {
   static constexpr Word word{
       "file",
-      "A ready mesh of tetrahedra, hexahedra, prisms or pyramids: .msh of Gmsh, "
-      ".vtu and .vtk of VTK, .inp of Abaqus, .mesh of MEDIT, .node and .ele "
-      "of TetGen."};
+      "A ready mesh of tetrahedra, hexahedra, prisms or pyramids: .msh of Gmsh, .vtu and .vtk of "
+      "VTK, .inp of Abaqus, .mesh of MEDIT, .node and .ele of TetGen."};
   std::string file;
   std::string unit;  // symbol of a length unit
 };
@@ -297,10 +294,9 @@ struct Relax {
   double time = 1.0;     // s
 };
 struct Compress {
-  static constexpr Word word{
-      "compress",
-      "A strain of the whole specimen that grows at a constant rate and then "
-      "stays: stress over strain."};
+  static constexpr Word word{"compress",
+                             "A strain of the whole specimen that grows at a constant rate and "
+                             "then stays: stress over strain."};
   double strain = 0.1;                               // shortening over height, at the end
   double rate = 0.01;                                // 1/s
   double hold_time = 0.0;                            // s

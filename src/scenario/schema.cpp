@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -34,8 +33,7 @@ using KeyKind = KeyTree::Kind;
 Json any_schema(const std::vector<Json>& schemas) {
   Json different = Json::array();
   for (const Json& schema : schemas)
-    if (std::find(different.begin(), different.end(), schema) == different.end())
-      different.push_back(schema);
+    if (std::ranges::find(different, schema) == different.end()) different.push_back(schema);
   return different.size() == 1 ? different[0] : Json{{"anyOf", different}};
 }
 
@@ -105,8 +103,8 @@ Json table_schema(const KeyTree& key) {
   Json kinds, conditions;
   std::vector<std::pair<std::string, std::vector<Json>>> schemas;
   const auto add = [&](const KeyTree& one) {
-    auto known = std::find_if(schemas.begin(), schemas.end(),
-                              [&](const auto& other) { return other.first == one.name; });
+    auto known =
+        std::ranges::find_if(schemas, [&](const auto& other) { return other.first == one.name; });
     if (known == schemas.end()) known = schemas.insert(known, {one.name, {}});
     known->second.push_back(value_schema(one));
   };

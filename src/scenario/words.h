@@ -88,9 +88,8 @@ inline constexpr auto volumes =
                               {"nodal", "averaged over the tetrahedra around every node"}});
 inline constexpr Word auto_integrators{
     "auto",
-    "`quasi_static` in uniform tests, in slow presses by springs "
-    "without viscosity, where the mesh's motion cannot reach the "
-    "force, or where `model = \"auto\"` finds that inertia does not "
+    "`quasi_static` in uniform tests, in slow presses by springs without viscosity, where the "
+    "mesh's motion cannot reach the force, or where `model = \"auto\"` finds that inertia does not "
     "matter; else `central_difference`"};
 inline constexpr Words<Solver::Integrator, integrator_table.size()> integrators(integrator_table);
 inline constexpr auto starts = words_of<integrate::Start>(

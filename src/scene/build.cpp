@@ -7,13 +7,14 @@
 #include <numbers>
 #include <utility>
 
+#include "base/error.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "contact/hertz.h"
 #include "contact/patch.h"
 #include "geometry/shapes.h"
 #include "scenario/integrators.h"
 #include "scenario/programme.h"
-#include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
 #include "scene/places.h"
 #include "scene/refining_press.h"
@@ -36,12 +37,8 @@ PressedNodes contact_frequency_squared(const Scene& scene, double depth, double 
   const Specimen& specimen = *scene.specimen;
   contact::Spreader spreader(*specimen.surface);
   contact::Spread load;
-  contact::Patch patch;
-  patch.at = first_touch(scene).at;
-  patch.position = specimen.surface->position(patch.at);
-  patch.normal = specimen.surface->normal(patch.at);
-  patch.axis = patch.normal.unitOrthogonal();
-  patch.a = patch.b = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
+  contact::Patch patch =
+      first_patch(scene, contact::hertz::contact_radius(depth, scene.finger.sphere_radius));
   if (widest_spacing > 0.0) patch = contact::wide_patch(patch, {patch.a, patch.b}, widest_spacing);
   spreader.spread(patch, load);
   double sum = 0.0;
@@ -103,8 +100,8 @@ void refuse_large_modal(const Scene& scene, const scenario::Family& family) {
     return;
   const std::string why =
       "`modal` keeps all modes with a platen, with `rings`, with `curvature_on = \"deformed\"`, "
-      "where "
-      "the tissue relaxes and the contact does not, and with couplings that read the mesh's motion";
+      "where the tissue relaxes and the contact does not, and with couplings that read the mesh's "
+      "motion";
   if (solver.modes)
     throw InputError(place_of(family.document, "solver.modes"), why + "; remove `modes`");
   if (nodes > most_modal_nodes)
@@ -176,7 +173,7 @@ void make_springs(const SpringMaker& maker, const std::vector<tissue::Isotropic>
                   const std::function<tissue::Uniaxial(const tissue::Network&)>& measure,
                   Specimen& specimen) {
   const std::vector<tissue::Isotropic> alike(tissues.size(), tissues.front());
-  const bool several = std::any_of(tissues.begin(), tissues.end(), [&](const auto& one) {
+  const bool several = std::ranges::any_of(tissues, [&](const auto& one) {
     return one.young_modulus != tissues.front().young_modulus ||
            one.poisson_ratio != tissues.front().poisson_ratio;
   });
@@ -244,8 +241,7 @@ std::unique_ptr<Specimen> make_specimen(const scenario::Resolved& scenario,
   if (scenario.uniform() && top_area <= 0.0)
     throw MeshError(
         "the specimen has no flat upper end for a platen; `creep`, `relax` and `compress` need a "
-        "shape with "
-        "flat ends, such as `cuboid` or `ligament`");
+        "shape with flat ends, such as `cuboid` or `ligament`");
   const bool platens =
       scenario.uniform() || std::holds_alternative<scenario::Cuboid>(scenario.tissue.shape);
   const bool fitted =
@@ -280,6 +276,59 @@ double Scene::thickness() const { return specimen ? specimen->height() : choice.
 
 namespace {
 
+constexpr double least_cells = 3.0;
+
+// The places where the finger presses, at most `apart` (m) from each other along slides.
+std::vector<Vec3> places(const Scene& scene, double apart) {
+  std::vector<Vec3> all{pressed_place(scene)};
+  for (const scenario::Step& step : scene.scenario.steps) {
+    const auto* slide = std::get_if<scenario::Slide>(&step);
+    if (slide == nullptr) continue;
+    const Vec3 move = slide->way();
+    const Vec3 start = all.back();
+    const int pieces = std::max(1, static_cast<int>(std::ceil(slide->by / apart)));
+    for (int i = 1; i <= pieces; ++i) all.emplace_back(start + move * i / pieces);
+  }
+  return all;
+}
+
+// The side of a cell within `radius` (m) of a place, seen from above, or else of the nearest cell.
+double cell_at(const geometry::Surface& outer_surface, const Vec3& place, double radius) {
+  double sum = 0.0;
+  int count = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  double area_there = 0.0;
+  for (std::size_t t = 0; t < outer_surface.triangles.size(); ++t) {
+    const Vec3 twice = geometry::twice_area(outer_surface, static_cast<int>(t));
+    if (twice.z() <= 0.0) continue;
+    Vec3 centre = Vec3::Zero();
+    for (const int v : outer_surface.triangles[t])
+      centre += outer_surface.vertices[as_index(v)] / 3.0;
+    const double distance = (centre - place).head<2>().norm();
+    if (distance < nearest) {
+      nearest = distance;
+      area_there = 0.5 * twice.norm();
+    }
+    if (distance > radius) continue;
+    sum += 0.5 * twice.norm();
+    ++count;
+  }
+  return std::sqrt(2.0 * (count > 0 ? sum / count : area_there));
+}
+
+// Fewer cells under the contact than `resolved` needs.
+void refuse_unresolved(const Scene& scene) {
+  if (scene.scenario.uniform() || scene.scenario.contact.coupling != contact::Coupling::resolved)
+    return;
+  const double cells = cells_per_contact_radius(scene);
+  if (cells >= least_cells) return;
+  throw MeshError(
+      "`resolved` needs 3 cells along the contact radius, and the mesh has " +
+      rounded_text(cells, 2) + " at the largest displacement of " +
+      quantity_text(deepest_travel(scene.scenario, scene.law()), unit::mm) +
+      "; give `tissue.mesh` more cells or a `grading`, or set `contact.coupling = \"consistent\"`");
+}
+
 void set_layer(Scene& scene) {
   const contact::Layer layer = layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
   scene.layer = make_layer(scene.scenario, scene.finger, layer_law(layer));
@@ -290,12 +339,11 @@ void set_depth_ratio(Scene& scene, const scenario::Family& family) {
   if (scene.scenario.contact.depth != scenario::Contact::Depth::neo_hookean) return;
   scene.depth_ratio = scene.choice.expected.depth_ratio;
   if (!scene.depth_ratio)
-    throw InputError(
-        place_of(family.document, "contact.depth"),
-        "`neo_hookean` is known for flat tissue of one kind, at least " +
-            rounded_text(DepthRatio::thinnest) +
-            " finger radii thick and two contact radii from every edge; write `depth = \"hertz\"`, "
-            "or set `solver.model = \"solid\"`");
+    throw InputError(place_of(family.document, "contact.depth"),
+                     "`neo_hookean` is known for flat tissue of one kind, at least " +
+                         rounded_text(DepthRatio::thinnest) +
+                         " finger radii thick and two contact radii from every edge; write `depth "
+                         "= \"hertz\"`, or set `solver.model = \"solid\"`");
 }
 
 void set_specimen(Scene& scene, const scenario::Family& family, SpecimenShapes& shapes) {
@@ -330,9 +378,8 @@ void refuse_sliding(const Scene& scene, const scenario::Family& family) {
       place_of(family.document, "tissue.base"),
       "the finger presses on a surface that is inclined by " +
           rounded_text(touch.inclination(), 2) +
-          " degrees, and on a frictionless base nothing keeps the specimen from "
-          "sliding away; set `tissue.base = \"bonded\"`, or press where the surface is "
-          "level");
+          " degrees, and on a frictionless base nothing keeps the specimen from sliding away; set "
+          "`tissue.base = \"bonded\"`, or press where the surface is level");
 }
 
 // Refuses a model that cannot compute the scene.
@@ -355,6 +402,15 @@ void refuse_beyond(const Scene& scene, const scenario::Family& family, SpecimenS
 }
 
 }  // namespace
+
+double cells_per_contact_radius(const Scene& scene) {
+  const double depth = deepest_travel(scene.scenario, scene.law());
+  const double radius = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
+  double widest = 0.0;
+  for (const Vec3& place : places(scene, radius))
+    widest = std::max(widest, cell_at(scene.specimen->surface->surface(), place, radius));
+  return radius / widest;
+}
 
 Scene build(const scenario::Case& one, const scenario::Family& family, SpecimenShapes& shapes,
             Choice choice) {
@@ -475,7 +531,7 @@ contact::Layer layers_of(const scenario::Resolved& scenario, double share) {
   // The height of a body from a file is not known here: one layer.
   const auto shape = parametric(tissue.shape);
   if (slabs.empty() || !shape) return layer;
-  std::sort(slabs.begin(), slabs.end(), [](const Layered& one, const Layered& other) {
+  std::ranges::sort(slabs, [](const Layered& one, const Layered& other) {
     return one.first->top > other.first->top;
   });
   const double height = geometry::extent(*shape).z();
@@ -494,13 +550,13 @@ contact::Layer layers_of(const scenario::Resolved& scenario, double share) {
 }
 
 bool all_slabs(const scenario::Resolved& scenario) {
-  return std::all_of(scenario.regions.begin(), scenario.regions.end(), [](const auto& region) {
+  return std::ranges::all_of(scenario.regions, [](const auto& region) {
     return std::holds_alternative<scenario::Slab>(region.part);
   });
 }
 
 bool several_tissues(const scenario::Resolved& scenario) {
-  return std::any_of(scenario.regions.begin(), scenario.regions.end(), [&](const auto& region) {
+  return std::ranges::any_of(scenario.regions, [&](const auto& region) {
     return std::holds_alternative<scenario::Inclusion>(region.part) ||
            region.young_modulus != scenario.tissue.young_modulus ||
            region.poisson_ratio != scenario.tissue.poisson_ratio;

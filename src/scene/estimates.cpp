@@ -251,9 +251,9 @@ bool carries_waves(const scenario::Resolved& scenario, const SurfaceTouch& touch
 
 double uniform_ringing(const scenario::Resolved& scenario) {
   const scenario::Resolved::Tissue& tissue = scenario.tissue;
-  const bool jumps = std::any_of(
-      scenario.steps.begin(), scenario.steps.end(),
-      [](const scenario::Step& step) { return std::holds_alternative<scenario::Creep>(step); });
+  const bool jumps = std::ranges::any_of(scenario.steps, [](const scenario::Step& step) {
+    return std::holds_alternative<scenario::Creep>(step);
+  });
   if (!jumps || tissue.viscosity == tissue::Viscosity::nodal_drag) return 0.0;
   if (tissue.viscosity != tissue::Viscosity::kelvin_voigt)
     return 1.0 / tissue.law.instantaneous_ratio();

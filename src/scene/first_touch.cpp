@@ -71,4 +71,13 @@ FirstTouch first_touch(const Scene& scene) {
                       {scene.finger.centres, scene.finger.sphere_radius});
 }
 
+contact::Patch first_patch(const Scene& scene, double radius) {
+  const geometry::SmoothSurface& surface = *scene.specimen->surface;
+  contact::Patch patch{.at = first_touch(scene).at, .a = radius, .b = radius, .beyond = {}};
+  patch.position = surface.position(patch.at);
+  patch.normal = surface.normal(patch.at);
+  patch.axis = patch.normal.unitOrthogonal();
+  return patch;
+}
+
 }  // namespace palpate::scene

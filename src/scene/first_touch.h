@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "contact/patch.h"
 #include "geometry/smooth_surface.h"
 #include "scene/scene.h"
 
@@ -34,6 +35,9 @@ struct Spheres {
 // Lowers the finger vertically at its x and y onto the undeformed specimen. Throws KeyError if the
 // finger passes beside the specimen.
 [[nodiscard]] FirstTouch first_touch(const Scene& scene);
+
+// The circular contact of a radius (m) there.
+[[nodiscard]] contact::Patch first_patch(const Scene& scene, double radius);
 
 // The place (m) of the press: the scenario's x and y, or the specimen's middle, at its top. Without
 // a mesh, the lowest point of the finger when it first touches.

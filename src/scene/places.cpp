@@ -175,8 +175,8 @@ Vec3 side_of_group(scenario::Resolved& scenario, const std::string& folder,
       "the faces of the group `" + scenario.tissue.base_side + "` of `tissue.base_side` ";
   if (outwards.norm() < 0.5 * own)
     throw MeshError(base +
-                    "look in many directions, so that they are no side that can be fixed; "
-                    "name a flatter group");
+                    "look in many directions, so that they are no side that can be fixed; name a "
+                    "flatter group");
   outwards.normalize();
   double height = -HUGE_VAL;
   for (const auto& face : faces)
@@ -412,7 +412,7 @@ namespace {
 
 // The part of a triangle that lies below a level of a linear height with these corners.
 double share_below(std::array<double, 3> heights, double level) {
-  std::sort(heights.begin(), heights.end());
+  std::ranges::sort(heights);
   const auto& [low, middle, high] = heights;
   if (level >= high) return 1.0;
   if (level <= low) return 0.0;
@@ -494,7 +494,7 @@ double share_inside(const geometry::Surface& body, const geometry::Inclusion& in
       const double half = std::sqrt(std::max(0.0, r * r - x * x - y * y));
       all += 2.0 * half;
       std::vector<double>& heights = crossings[as_index(i * lines + j)];
-      std::sort(heights.begin(), heights.end());
+      std::ranges::sort(heights);
       for (std::size_t k = 0; k + 1 < heights.size(); k += 2)
         inside += std::max(0.0, std::min(heights[k + 1], inclusion.centre.z() + half) -
                                     std::max(heights[k], inclusion.centre.z() - half));
@@ -550,10 +550,9 @@ void refuse_outside(const scenario::Resolved& scenario, const geometry::Surface&
 
 void refuse_misplaced(const scenario::Resolved& scenario, const scenario::Family& family,
                       SpecimenShapes& shapes) {
-  const bool placed =
-      std::any_of(scenario.regions.begin(), scenario.regions.end(), [](const auto& region) {
-        return !std::holds_alternative<scenario::TaggedRegion>(region.part);
-      });
+  const bool placed = std::ranges::any_of(scenario.regions, [](const auto& region) {
+    return !std::holds_alternative<scenario::TaggedRegion>(region.part);
+  });
   if (!placed && !scenario.tissue.base_height) return;
   if (const auto shape = parametric(scenario.tissue.shape)) {
     constexpr double spacing_over_size = 0.02;  // a chord is then 1e-4 of the size inside

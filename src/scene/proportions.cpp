@@ -96,10 +96,9 @@ void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch
   if (!touch.size.allFinite()) return;
   const std::string before = meets_before(scenario, touch);
   if (!before.empty() && scenario.finger.towards.empty())
-    throw InputError(place_of(family.document, "finger.at"),
-                     before +
-                         ", which lies on an inner wall; give a place on the outside, or "
-                         "`finger.towards`");
+    throw InputError(
+        place_of(family.document, "finger.at"),
+        before + ", which lies on an inner wall; give a place on the outside, or `finger.towards`");
   const double distance = scenario.finger.beside;
   if (distance <= near(scenario, touch)) return;
   throw InputError(place_of(family.document, "finger.at"),
@@ -117,13 +116,13 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
   const double travel = estimates.tissue_share * estimates.travel;
   const double hollow = touch.to_base - touch.tissue_to_base;
   if (travel > deep * touch.tissue_to_base)
-    found.push_back("the press takes " + percent_text(travel / touch.tissue_to_base) +
-                    " of the tissue, which is " + mm_text(touch.tissue_to_base) +
-                    " thick between the finger and what holds it" +
-                    (hollow > 0.0 ? " (without " + mm_text(hollow) + " that are hollow)" : "") +
-                    ": few tissues are tested at "
-                    "such strains; press less deep, or check the size of the body" +
-                    units);
+    found.push_back(
+        "the press takes " + percent_text(travel / touch.tissue_to_base) +
+        " of the tissue, which is " + mm_text(touch.tissue_to_base) +
+        " thick between the finger and what holds it" +
+        (hollow > 0.0 ? " (without " + mm_text(hollow) + " that are hollow)" : "") +
+        ": few tissues are tested at such strains; press less deep, or check the size of the body" +
+        units);
   else if (hollow > 0.0 && travel > hollow)
     found.push_back("the press is deeper than the " + mm_text(hollow) +
                     " that are hollow under the finger: the curve of `solid` ends where the walls "

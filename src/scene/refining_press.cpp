@@ -23,11 +23,10 @@ Scenario refining_press(const Scenario& scenario) {
   Scenario press = scenario;
   const Finger finger = make_finger(scenario);
   double deepest = deepest_travel(scenario, finger.whole);
-  const bool to_force =
-      std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const scenario::Step& step) {
-        const auto* indent = std::get_if<scenario::Indent>(&step);
-        return indent != nullptr && indent->to.second;
-      });
+  const bool to_force = std::ranges::any_of(scenario.steps, [](const scenario::Step& step) {
+    const auto* indent = std::get_if<scenario::Indent>(&step);
+    return indent != nullptr && indent->to.second;
+  });
   // The depth at a force depends on the modulus. It is rounded up, so that a sweep of moduli shares
   // a few meshes.
   if (to_force)

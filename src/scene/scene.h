@@ -213,6 +213,11 @@ struct Scene {
   [[nodiscard]] const contact::SphereLaw& law() const { return finger.whole; }
 };
 
+// Number of cells of the surface along the contact radius a = sqrt(R h) of the deepest travel, at
+// the coarsest place of the finger's path. A cell is two triangles; its side is the square root of
+// twice their mean area within a of the finger.                              docs/theory.md [cells]
+[[nodiscard]] double cells_per_contact_radius(const Scene& scene);
+
 // Builds a case with a choice that was made before; `shapes` keeps what is built. Relative mesh
 // files are looked for in the family's folder. Throws MeshError for an unsuitable mesh, InputError
 // for a time step above its limit and for a model that cannot be used.

@@ -1,8 +1,6 @@
 // Finds the first touch of the finger on the body as it is given.
 #include "scene/scene.h"
 
-#include <algorithm>
-
 #include "base/error.h"
 #include "geometry/curved_edges.h"
 #include "geometry/surface.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -146,7 +145,7 @@ SpecimenMesh any_mesh(const Scenario& scenario, const std::string& folder,
     mesh = meshing::cut_at(std::move(mesh), height, false, parametric(scenario.tissue.shape));
   if (!heights.empty()) {
     std::erase_if(made.middles, [&](const auto& one) {  // of nodes that the cuts moved
-      return std::any_of(one.first.begin(), one.first.end(), [&](int node) {
+      return std::ranges::any_of(one.first, [&](int node) {
         return mesh.nodes[as_index(node)] != before[as_index(node)];
       });
     });
@@ -200,8 +199,7 @@ void number_regions(SpecimenMesh& made, const Scenario& scenario) {
                      what + "; check its `tag` or `name` against the mesh");
     throw MeshError(what + "; mesh the inclusion finer");
   }
-  if (std::all_of(mesh.regions.begin(), mesh.regions.end(), [](int r) { return r == 0; }))
-    mesh.regions.clear();
+  if (std::ranges::all_of(mesh.regions, [](int r) { return r == 0; })) mesh.regions.clear();
 }
 
 // Turns a mesh that lies along y to stand on its end at y = 0.

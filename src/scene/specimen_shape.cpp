@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "base/error.h"
 #include "base/fields.h"
@@ -17,7 +16,6 @@
 #include "meshing/mesh_check.h"
 #include "scenario/programme.h"
 #include "scene/places.h"
-#include "scene/refining_press.h"
 #include "scene/scene.h"
 #include "scene/specimen_mesh.h"
 

@@ -149,9 +149,9 @@ void SpringBody::memory_at(const Vector& displacement, std::vector<double>& memo
   if (size == 0) return;
   const Vector& measured = measure(displacement);
   memory.assign(size * as_index(measured.size()), 0.0);
-  std::copy(measured.begin(), measured.end(), memory.begin());
+  std::ranges::copy(measured, memory.begin());
   if (law_.kind == Viscosity::kelvin_voigt)
-    std::copy(measured.begin(), measured.end(), memory.begin() + measured.size());
+    std::ranges::copy(measured, memory.begin() + measured.size());
 }
 
 void SpringBody::remember(const Vector& displacement, const integrate::TimeStep& step,

@@ -33,9 +33,27 @@ class SurfaceDisplacementStore {
   // The place of the body with this key at a vertex of its surface (-1: at the first contact),
   // under a patch with this normal; nothing if it is not kept.
   [[nodiscard]] std::optional<SunkPlace> find(const std::string& body, int vertex,
-                                              const Vec3& normal);
+                                              const Vec3& normal) {
+    const std::lock_guard lock(looking_up_);
+    const auto known = places_.find({body, vertex});
+    if (known == places_.end()) return std::nullopt;
+    for (const SunkPlace& place : known->second)
+      if (place.normal == normal) return place;
+    return std::nullopt;
+  }
   // Drops all places before it would take more than 200 MB.
-  void keep(const std::string& body, int vertex, const SunkPlace& place);
+  void keep(const std::string& body, int vertex, const SunkPlace& place) {
+    constexpr double most_bytes = 2e8;
+    const double bytes = static_cast<double>(sizeof(SunkPlace) + body.size()) +
+                         sizeof(double) * static_cast<double>(place.rest.size());
+    const std::lock_guard lock(looking_up_);
+    if (bytes_ + bytes > most_bytes) {
+      places_.clear();
+      bytes_ = 0.0;
+    }
+    bytes_ += bytes;
+    places_[{body, vertex}].push_back(place);
+  }
 
  private:
   std::mutex looking_up_;

@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "base/units.h"
 #include "contact/hertz.h"
 #include "geometry/box_tree.h"
 #include "geometry/shapes.h"
@@ -91,7 +90,7 @@ std::vector<int> triangles_around(const geometry::SmoothSurface& whole, int tria
   std::vector<int> triangles;
   for (const int vertex : near)
     for (const int one : whole.neighbours().triangles_at(vertex)) triangles.push_back(one);
-  std::sort(triangles.begin(), triangles.end());
+  std::ranges::sort(triangles);
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   return triangles;
 }
@@ -115,7 +114,7 @@ geometry::CurvatureEstimate curvature_over(const geometry::SmoothSurface& whole,
   // One ring more than the fits use, so that they do not meet the rim of the piece.
   const std::vector<int> triangles = triangles_around(whole, at.triangle, options.rings + 1);
   const geometry::Surface piece = geometry::piece_of(whole.surface(), triangles);
-  const auto own = std::lower_bound(triangles.begin(), triangles.end(), at.triangle);
+  const auto own = std::ranges::lower_bound(triangles, at.triangle);
   const geometry::Neighbours neighbours(piece);
   const geometry::CurvatureStars stars(piece, neighbours, options);
   return geometry::between(stars.at_corners(piece, static_cast<int>(own - triangles.begin())),

@@ -109,7 +109,7 @@ Mesh quadratic(const geometry::TetMesh& from, const Middle& middle) {
   }
   std::map<std::array<int, 3>, int> uses;
   const auto key = [](std::array<int, 3> face) {
-    std::sort(face.begin(), face.end());
+    std::ranges::sort(face);
     return face;
   };
   const auto corners = [&](std::size_t t, const std::array<int, 3>& face) {
@@ -264,7 +264,7 @@ void Elements::find_pattern() {
   pattern_.resize(count_, count_);
   std::vector<int> sizes;
   for (std::vector<int>& list : rows) {
-    std::sort(list.begin(), list.end());
+    std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
     sizes.push_back(static_cast<int>(list.size()));
   }

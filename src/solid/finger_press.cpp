@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/doing.h"
@@ -90,10 +89,6 @@ constexpr double enough_excess = error_of_two_meshes;
 
 FingerPress::FingerPress(FingerOrder order)
     : order_(std::move(order)), settled_(!order_.ball.has_value()) {
-  make();
-}
-
-void FingerPress::make() {
   BodyOrder body = order_.body;
   body.radius = order_.radius / order_.share;
   body.travel = order_.deepest * order_.share;
@@ -117,11 +112,13 @@ void FingerPress::make() {
   for (const Vec3& centre : order_.centres)
     finger.push_back(Indenter::sphere(centre, order_.radius, order_.share));
   press_->set_finger(std::move(finger));
-  ball_press_.reset();
-  ball_ = {};
-  knots_.clear();
-  has_knots_ = false;
   begin(order_.in_steps);
+}
+
+void FingerPress::renew(double share) {
+  FingerOrder order = order_;
+  order.share = share;
+  *this = FingerPress(std::move(order));
 }
 
 FingerPress::Mismatch FingerPress::mismatch(double travel) {
@@ -150,25 +147,21 @@ void FingerPress::settle_share() {
     (void)tissue_travel(order_.deepest);
     const double end = std::min(order_.deepest, found_to());
     if (end < farthest) {  // tissue that folds sooner under a flatter surface
-      order_.share = before;
-      make();
+      renew(before);
       break;
     }
     const Mismatch found = mismatch(end);
     if (found.excess <= enough_excess) break;
     before = order_.share;
     farthest = end;
-    order_.share = better_share(found.wider);
-    make();
+    renew(better_share(found.wider));
   }
   settled_ = true;
 }
 
 void FingerPress::take_share(double share) {
+  if (share != order_.share) renew(share);
   settled_ = true;
-  if (share == order_.share) return;
-  order_.share = share;
-  make();
 }
 
 void FingerPress::begin(bool in_steps) {

@@ -133,7 +133,7 @@ class FingerPress {
   [[nodiscard]] double higher(const FingerPress& there) const {
     return there.order_.touch.finger.z() - order_.touch.finger.z();
   }
-  void make();  // the presses, for the order at hand
+  void renew(double share);  // all anew, by another share
   void begin(bool in_steps);
   void press_ball(double force);
   [[nodiscard]] double upright() const;

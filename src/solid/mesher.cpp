@@ -2,7 +2,6 @@
 #include "solid/mesher.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "geometry/curved_edges.h"

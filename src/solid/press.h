@@ -3,10 +3,8 @@
 
 #include <Eigen/SparseCore>
 #include <array>
-#include <functional>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "base/cholesky.h"

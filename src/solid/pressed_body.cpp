@@ -3,13 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <set>
 
 #include "base/error.h"
-#include "base/text.h"
-#include "base/units.h"
 #include "geometry/box.h"
 #include "geometry/surface.h"
 

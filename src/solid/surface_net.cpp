@@ -2,7 +2,6 @@
 #include "solid/surface_net.h"
 
 #include <algorithm>
-#include <cmath>
 #include <queue>
 #include <set>
 
@@ -139,7 +138,7 @@ void SurfaceNet::cut(const Plane& plane) {
       const int v = edge[as_index(end)];
       const double share = std::abs(end == 0 ? a : b) / (std::abs(a) + std::abs(b));
       if (creases[as_index(v)] > 2 || (creases[as_index(v)] > 0 && !on_crease)) continue;
-      const bool leaves = std::any_of(planes_.begin(), planes_.end(), [&](const Plane& before) {
+      const bool leaves = std::ranges::any_of(planes_, [&](const Plane& before) {
         return before.beyond(vertices_[as_index(v)]) == 0.0 &&
                before.beyond(vertices_[as_index(edge[as_index(1 - end)])]) != 0.0;
       });
@@ -263,8 +262,8 @@ void SurfaceNet::refine(const std::function<double(const Vec3&)>& size, std::opt
         there = 0.5 * (a + b);
       if (vertices_.size() > most_vertices)
         throw MeshError(
-            "its surface would have more than 200 000 vertices, so small is the contact beside "
-            "the body; press deeper, with a larger finger, or a part of the body");
+            "its surface would have more than 200 000 vertices, so small is the contact beside the "
+            "body; press deeper, with a larger finger, or a part of the body");
       const int middle = split(edge, there);
       std::set<Edge> near;
       for (const int end : edge)
@@ -357,10 +356,10 @@ void SurfaceNet::turn_edges() {
         for (const int v : triangles_[as_index(pair[i])])
           if (v != edge[0] && v != edge[1]) tips[i] = v;
       if (!kept_.empty() &&
-          std::any_of(tips.begin(), tips.end(), [&](int v) { return kept_[as_index(v)] != 0; }))
+          std::ranges::any_of(tips, [&](int v) { return kept_[as_index(v)] != 0; }))
         continue;
       // An edge along a plane stays, but for those between triangles on it.
-      if (std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+      if (std::ranges::any_of(planes_, [&](const Plane& plane) {
             return plane.beyond(a) == 0.0 && plane.beyond(b) == 0.0 &&
                    plane.beyond(vertices_[as_index(tips[0])]) != 0.0;
           }))

@@ -233,12 +233,8 @@ std::optional<ContactSpring> contact_spring(const ProbedBody& probed) {
   if (scene.scenario.uniform()) return std::nullopt;
   const scene::Specimen& specimen = *scene.specimen;
   const double depth = scene::deepest_travel(scene.scenario, scene.law());
-  contact::Patch patch;
-  patch.at = scene::first_touch(scene).at;
-  patch.position = specimen.surface->position(patch.at);
-  patch.normal = specimen.surface->normal(patch.at);
-  patch.axis = patch.normal.unitOrthogonal();
-  patch.a = patch.b = contact::hertz::contact_radius(depth, scene.finger.sphere_radius);
+  const contact::Patch patch =
+      scene::first_patch(scene, contact::hertz::contact_radius(depth, scene.finger.sphere_radius));
   contact::Spread load;
   contact::Spreader(*specimen.surface).spread(patch, load);
   ContactSpring spring;

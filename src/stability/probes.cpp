@@ -47,7 +47,7 @@ double volume(const geometry::TetMesh& mesh, const std::array<int, 4>& corners, 
 double flat_at(const geometry::TetMesh& mesh, int node) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& corners : mesh.tetrahedra) {
-    if (std::find(corners.begin(), corners.end(), node) == corners.end()) continue;
+    if (std::ranges::find(corners, node) == corners.end()) continue;
     const double rest = volume(mesh, corners, node, 0.0);
     const double slope = (rest - volume(mesh, corners, node, 1e-3)) / 1e-3;  // m^2
     if (slope / rest > 0.0) least = std::min(least, rest / slope);

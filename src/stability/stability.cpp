@@ -167,7 +167,7 @@ void along_size(Survey& survey) {
     const auto& lengths = probed->scene.specimen->network.rest_length;
     add_limit(survey, *probed, Method{}, {},
               {.axis = "shortest_edge_mm",
-               .value = 1e3 * *std::min_element(lengths.begin(), lengths.end()),
+               .value = 1e3 * *std::ranges::min_element(lengths),
                .note = std::to_string(probed->nodes()) + " nodes"});
   }
 }
@@ -258,10 +258,9 @@ namespace {
 
 void refuse(const scenario::Case& one, const scenario::Family& family) {
   if (std::holds_alternative<scenario::HalfSpace>(one.scenario.tissue.shape))
-    throw InputError(
-        place_of(family.document, "tissue.shape"),
-        "a `half_space` has no mesh and needs no time steps, so that it has no stability "
-        "map; give `tissue.shape` a size, as `{ kind = \"cuboid\" }` has");
+    throw InputError(place_of(family.document, "tissue.shape"),
+                     "a `half_space` has no mesh and needs no time steps, so that it has no "
+                     "stability map; give `tissue.shape` a size, as `{ kind = \"cuboid\" }` has");
 }
 
 void refuse_large(const ProbedBody& own, const scenario::Family& family) {

@@ -28,13 +28,6 @@ Cell microseconds(const std::optional<double>& seconds) {
 
 }  // namespace
 
-const char* failure_word(Failure failure) {
-  constexpr std::array words{
-      "none",    "divergence", "non_finite", "inversion", "false_equilibrium",
-      "locking", "drift",      "chatter"};
-  return words[as_index(failure)];
-}
-
 record::Table limit_table(const StabilityMap& map) {
   record::Table table;
   table.columns = {"model",    "volume",    "integrator", "damping", "axis", "value",
@@ -212,8 +205,7 @@ std::string agreement(const stability::StabilityMap& map) {
   }
   return panel(map, "model", Scale::logarithmic, "Every model and damping", "limit by theory, µs") +
          "set key at screen 0.52, screen 0.975 center top vertical maxrows 1 Left reverse samplen "
-         "1 "
-         "font ',13'\n"
+         "1 font ',13'\n"
          "plot \\\n  " +
          joined(lines, ", \\\n  ") + "\nunset key\n";
 }
@@ -391,11 +383,11 @@ std::string failures_sentence(const Survey& survey) {
   std::vector<std::string> not_seen;
   for (const FailureRow& row : survey.map.failures) {
     auto& list = row.reached ? seen : not_seen;
-    if (std::find(list.begin(), list.end(), failure_word(row.failure)) == list.end())
+    if (std::ranges::find(list, failure_word(row.failure)) == list.end())
       list.emplace_back(failure_word(row.failure));
   }
   std::erase_if(not_seen, [&](const std::string& word) {
-    return std::find(seen.begin(), seen.end(), word) != seen.end();
+    return std::ranges::find(seen, word) != seen.end();
   });
   std::string text = "Failures shown: " + joined(seen, ", ") + ".";
   if (!not_seen.empty()) text += " Not reached here: " + joined(not_seen, ", ") + ".";

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "base/error.h"
@@ -16,7 +14,6 @@
 #include "fit/regression.h"
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
-#include "record/table.h"
 
 namespace palpate::sweep {
 namespace {
@@ -44,14 +41,14 @@ std::optional<std::size_t> rank(const std::string& column) {
 }
 
 std::size_t place(const std::string& column, std::span<const std::string> header) {
-  const auto found = std::find(header.begin(), header.end(), column);
+  const auto found = std::ranges::find(header, column);
   if (found != header.end()) return as_index(found - header.begin());
   throw InputError({}, "the results have no column `" + column + "`; " +
                            did_you_mean(column, header, "the first row of results.csv names them"));
 }
 
 double word_number(FactorColumn& factor, const std::string& word) {
-  const auto found = std::find(factor.words.begin(), factor.words.end(), word);
+  const auto found = std::ranges::find(factor.words, word);
   if (found == factor.words.end()) {
     factor.words.push_back(word);
     return static_cast<double>(factor.words.size() - 1);
@@ -66,8 +63,7 @@ bool varies(const std::vector<double>& values) {
 }
 
 std::size_t known(const std::vector<double>& values) {
-  return as_index(
-      std::count_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); }));
+  return as_index(std::ranges::count_if(values, [](double v) { return std::isfinite(v); }));
 }
 
 }  // namespace
@@ -95,7 +91,7 @@ ColumnReader::ColumnReader(const ColumnChoice& choice, std::span<const std::stri
   } else {
     for (std::size_t i = 0; i < header.size(); ++i)
       if (rank(header[i])) output_at_.push_back(i);
-    std::stable_sort(output_at_.begin(), output_at_.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(output_at_, [&](std::size_t a, std::size_t b) {
       return *rank(header[a]) < *rank(header[b]);
     });
   }
@@ -166,7 +162,7 @@ std::string unit_symbol(std::string unit) {
   if (unit.starts_with("per_")) unit = "1_" + unit;
   const std::size_t per = unit.find("_per_");
   if (per != std::string::npos) unit.replace(per, 5, "/");
-  std::replace(unit.begin(), unit.end(), '_', ' ');
+  std::ranges::replace(unit, '_', ' ');
   return unit;
 }
 
@@ -206,7 +202,7 @@ std::string output_label(const std::string& column) {
   if (std::string fitted = fit_label(column); !fitted.empty()) return fitted;
   const std::string unit = fit::column_unit(column);
   std::string text = column.substr(0, column.size() - (unit.empty() ? 0 : unit.size() + 1));
-  std::replace(text.begin(), text.end(), '_', ' ');
+  std::ranges::replace(text, '_', ' ');
   return with_unit(capitalized(text), unit);
 }
 
@@ -242,7 +238,7 @@ std::vector<FactorChoice> factor_choices(const scenario::Design& design,
   for (const scenario::Factor& factor : design.factors()) {
     const scenario::Varied& first = factor.keys.front();
     const auto& keys = design.keys();
-    const auto key = std::find(keys.begin(), keys.end(), first.key) - keys.begin();
+    const auto key = std::ranges::find(keys, first.key) - keys.begin();
     choices.push_back({.name = factor.name,
                        .column = header.at(before_keys + as_index(key)),
                        .scale = first.interval ? first.interval->scale : Scale::linear,
@@ -270,7 +266,7 @@ SweepColumns read_sweep_columns(const std::string& path, const scenario::Design&
   for_each_line(path, [&](const FileLine& line) {
     std::string& into = header.empty() || (quoted && rows.empty()) ? header : rows;
     into += std::string(line.text) + "\n";
-    if (std::count(line.text.begin(), line.text.end(), '"') % 2 != 0) quoted = !quoted;
+    if (std::ranges::count(line.text, '"') % 2 != 0) quoted = !quoted;
     if (!quoted && rows.size() > part) parse();
   });
   parse();

@@ -28,8 +28,8 @@ SweepResults::SweepResults(const SweepPlan& plan, const Shard& shard)
     : plan_(&plan), places_(plan.count()) {
   std::vector<std::uint32_t> by_id(plan.count());
   std::iota(by_id.begin(), by_id.end(), 0U);
-  std::sort(by_id.begin(), by_id.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return plan.ids[a] < plan.ids[b]; });
+  std::ranges::sort(by_id,
+                    [&](std::uint32_t a, std::uint32_t b) { return plan.ids[a] < plan.ids[b]; });
   for (const std::string& path : record::journal_files(plan.folder + "/results"))
     if (!is_of_another_part(fs::path(path).filename().string(), shard)) read(path, by_id);
 }
@@ -42,9 +42,8 @@ void SweepResults::read(const std::string& path, const std::vector<std::uint32_t
         auto head = head_of(row);
         if (!head) return false;
         head->seal = id_of(line.text.substr(0, 16)).value_or(0);
-        const auto found =
-            std::lower_bound(by_id.begin(), by_id.end(), head->id,
-                             [&](std::uint32_t a, std::uint64_t id) { return plan_->ids[a] < id; });
+        const auto found = std::ranges::lower_bound(
+            by_id, head->id, {}, [&](std::uint32_t each) { return plan_->ids[each]; });
         if (found == by_id.end() || plan_->ids[*found] != head->id) return false;
         add(*found, {.file = number, .head = *head, .offset = line.offset});
         return true;

@@ -154,30 +154,13 @@ SweepAnswer merge_sweep(const SweepPlan& plan, const SweepResults& results,
                         const SweepTotals& totals, WholeFolder& folder) {
   SweepAnswer answer = Merge(plan, results, folder).write();
   const std::vector<std::string>& swept = plan.family.design.keys();
-  if (std::find(swept.begin(), swept.end(), "solver.tolerance") == swept.end())
+  if (std::ranges::find(swept, "solver.tolerance") == swept.end())
     answer.tolerance = percent_text(plan.family.base.solver.tolerance);
   folder.write("merged.json", merged_text(plan, totals, folder.files()));
   return answer;
 }
 
 namespace {
-
-constexpr std::string_view begins = "Neglected: ", also = " Also neglected: ";
-
-bool in_number(char c) { return is_digit(c) || c == '.'; }
-
-std::string without_numbers(std::string sentence) {
-  std::erase_if(sentence, in_number);
-  return sentence;
-}
-
-// The first number of a sentence, which is the change by an effect; 0 without a number.
-double first_number(const std::string& sentence) {
-  const std::size_t at = sentence.find_first_of("0123456789");
-  if (at == std::string::npos) return 0.0;
-  const auto number = leading_number(std::string_view(sentence).substr(at));
-  return number ? number->value : 0.0;
-}
 
 std::string of_cases(std::size_t count, std::size_t all) {
   return std::to_string(count) + " of " + std::to_string(all) + (all == 1 ? " case" : " cases");
@@ -199,31 +182,19 @@ void SweepAnswer::see(const SweepRow& row, std::size_t number) {
   } else {
     errors_.low = std::min(errors_.low, *error);
     errors_.high = std::max(errors_.high, *error);
+    const std::string uncounted = record::uncounted(row.neglected);
+    if (!uncounted.empty()) ++uncounted_cases_;
+    if (uncounted.size() > uncounted_.size()) uncounted_ = uncounted;
   }
-  for (const std::string& warning : row.warnings) {
-    if (warning.starts_with(not_counted)) {
-      ++uncounted_cases_;
-      if (warning.size() > uncounted_.size()) uncounted_ = warning;
-    }
-    if (!warning.starts_with(begins)) continue;
-    std::size_t from = begins.size();
-    for (std::size_t end = 0; end != std::string::npos; from = end + also.size()) {
-      end = warning.find(also, from);
-      see_effect(warning.substr(from, end - from), number);
-    }
+  for (const record::Neglected& one : row.neglected) {
+    auto effect = std::ranges::find(effects_, one.what, &Effect::what);
+    if (effect == effects_.end()) effect = effects_.insert(effect, {.what = one.what});
+    const double change = std::abs(one.change.value_or(0.0));
+    if (effect->cases++ > 0 && change <= effect->largest) continue;
+    effect->largest = change;
+    effect->sentence = one.sentence();
+    effect->number = number;
   }
-}
-
-void SweepAnswer::see_effect(const std::string& sentence, std::size_t number) {
-  const std::string bare = without_numbers(sentence);
-  auto effect = std::find_if(effects_.begin(), effects_.end(),
-                             [&](const Effect& one) { return one.bare == bare; });
-  if (effect == effects_.end()) effect = effects_.insert(effects_.end(), Effect{.bare = bare});
-  const double change = first_number(sentence);
-  if (effect->cases++ > 0 && change <= effect->largest) return;
-  effect->largest = change;
-  effect->sentence = sentence;
-  effect->number = number;
 }
 
 std::string SweepAnswer::error() const {
@@ -236,10 +207,8 @@ std::string SweepAnswer::error() const {
   return "± " + low + (low == high ? "" : " to " + high) +
          (tolerance.empty() ? "" : " (tolerance " + tolerance + ")") +
          (unknown_ == 0 ? "" : ", not known in " + of_cases(unknown_, cases_)) +
-         (uncounted_cases_ == 0 ? ""
-          : uncounted_cases_ == cases_
-              ? ", " + uncounted_
-              : ", " + uncounted_ + " in " + of_cases(uncounted_cases_, cases_));
+         (uncounted_cases_ == 0 ? "" : ", not counting " + uncounted_) +
+         (uncounted_cases_ % cases_ == 0 ? "" : " in " + of_cases(uncounted_cases_, cases_));
 }
 
 std::vector<std::string> SweepAnswer::lines() const {
@@ -250,8 +219,7 @@ std::vector<std::string> SweepAnswer::lines() const {
   std::vector<std::string> lines;
   if (!models.empty()) lines.push_back(models + ".");
   std::vector<Effect> effects = effects_;
-  std::stable_sort(effects.begin(), effects.end(),
-                   [](const Effect& a, const Effect& b) { return a.largest > b.largest; });
+  std::ranges::stable_sort(effects, std::ranges::greater(), &Effect::largest);
   for (const Effect& one : effects) {
     std::string line = "Neglected in " + of_cases(one.cases, cases_);
     if (one.cases > 1) line += ", most in case " + std::to_string(one.number);

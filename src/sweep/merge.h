@@ -31,20 +31,18 @@ class SweepAnswer {
   [[nodiscard]] std::vector<std::string> lines() const;
 
  private:
-  // An effect that cases neglect in the same words, but for numbers.
+  // An effect that cases neglect.
   struct Effect {
-    std::string bare;  // the sentence without its numbers
+    std::string what;
     std::size_t cases = 0;
-    double largest = 0.0;    // per cent
+    double largest = 0.0;
     std::string sentence{};  // of the case with the largest change
     std::size_t number = 0;  // of that case
   };
-  void see_effect(const std::string& sentence, std::size_t number);
-
   std::size_t cases_ = 0;
   std::size_t unknown_ = 0;  // cases without a stated error
   std::size_t uncounted_cases_ = 0;
-  std::string uncounted_;  // the longest sentence on what an error does not contain
+  std::string uncounted_;  // the longest text on what an error does not contain
   std::map<std::string, std::size_t> models_;
   Ends errors_;  // as parts of 1
   std::vector<Effect> effects_;

@@ -17,14 +17,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "base/document.h"
-#include "base/error.h"
-#include "base/files.h"
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
@@ -34,7 +31,6 @@
 #include "run/choose.h"
 #include "run/family.h"
 #include "run/refined_mesh.h"
-#include "run/share_out.h"
 #include "scenario/programme.h"
 #include "scene/estimates.h"
 #include "scene/scene.h"
@@ -112,7 +108,7 @@ class Maker {
 void refuse_twins(const scenario::Family& family, const std::vector<std::uint64_t>& ids) {
   std::vector<std::uint32_t> order(ids.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     return ids[a] != ids[b] ? ids[a] < ids[b] : a < b;
   });
   for (std::size_t i = 0; i + 1 < order.size(); ++i)
@@ -146,7 +142,7 @@ void write_cases(const std::string& path, const scenario::Family& original,
         planned[i].id = twin_id(planned[i].id, first + i + 1);
       std::vector<record::Cell> row{static_cast<double>(first + i + 1), id_text(planned[i].id)};
       for (std::string& word : planned[i].words) {
-        std::replace(word.begin(), word.end(), '\n', ' ');  // one line per case
+        std::ranges::replace(word, '\n', ' ');  // one line per case
         row.push_back(record::swept_cell(word));
       }
       file.add(std::move(row));
@@ -228,9 +224,9 @@ Planned plan_sweep(const SweepOrder& order) {
   std::optional<SweepPlan> old;
   if (!order.reuse.empty()) old = read_plan(order.reuse, order.program);
   if (old && order.curves == SweepOrder::Curves::kept && !old->curves)
-    throw InputError({old->folder, 0, 0},
-                     "keeps no curves, and the new plan does; plan without `--curves`, or without "
-                     "`--reuse`");
+    throw InputError(
+        {old->folder, 0, 0},
+        "keeps no curves, and the new plan does; plan without `--curves`, or without `--reuse`");
   take_model(original, order.workers);
   Planned planned{.folder = (fs::path(order.out) / (original.name + "_sweep")).string(),
                   .cases = original.design.count(),
@@ -358,8 +354,7 @@ PlanFile read_plan_file(const std::string& text, const std::string& path) {
       const auto named = [&](const scenario::ModelTraits& traits) {
         return json["model"] == traits.word;
       };
-      const auto* traits =
-          std::find_if(scenario::model_table.begin(), scenario::model_table.end(), named);
+      const auto* traits = std::ranges::find_if(scenario::model_table, named);
       if (traits == scenario::model_table.end()) throw std::runtime_error("no model");
       file.model = traits->of;
     }
@@ -404,14 +399,12 @@ std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
       "report = ", "tissue_at = ", "size = \"auto\""};
   std::string text;
   for (const std::string& line : split(scenario::spelled_out(one), '\n'))
-    if (std::none_of(later.begin(), later.end(),
-                     [&](std::string_view key) { return line.starts_with(key); }))
+    if (std::ranges::none_of(later, [&](std::string_view key) { return line.starts_with(key); }))
       text += (text.empty() ? "" : "\n") + line;
   if (one.at_least && *one.at_least != scenario::Model::hertz && !one.scenario.solver.model)
     text += std::string("\nat_least = ") + scenario::traits(*one.at_least).word;
   for (const auto& [name, hash] : files)
-    if (std::find(one.files.begin(), one.files.end(), name) != one.files.end())
-      text += name + " " + hash + "\n";
+    if (std::ranges::find(one.files, name) != one.files.end()) text += name + " " + hash + "\n";
   return id_of(sha256(text).substr(0, 16)).value_or(0);
 }
 

@@ -3,16 +3,13 @@
 #include "sweep/response.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 
-#include "base/index.h"
 #include "base/text.h"
 #include "page/page.h"
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
-#include "sweep/columns.h"
 
 namespace palpate::sweep {
 namespace {
@@ -36,7 +33,7 @@ std::vector<GridFactor> grid_factors(const SweepColumns& columns) {
     std::vector<std::size_t> order(factor.choice.levels);
     std::iota(order.begin(), order.end(), std::size_t{0});
     if (factor.is_number())
-      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
         return factor.values[a * stride] < factor.values[b * stride];
       });
     one.every = (order.size() + most_levels - 1) / most_levels;
@@ -108,8 +105,7 @@ std::optional<Response> response(const SweepColumns& columns, const OutputColumn
     for (const std::size_t level : across->order)
       made.grid.values.push_back(output.values[from + level * across->stride]);
   }
-  if (std::none_of(made.grid.values.begin(), made.grid.values.end(),
-                   [](double value) { return std::isfinite(value); }))
+  if (std::ranges::none_of(made.grid.values, [](double value) { return std::isfinite(value); }))
     return std::nullopt;
   if (along != nullptr) {
     made.along = along->column->choice;
@@ -213,7 +209,7 @@ std::string names_of_lines(const Response& response, const Lines& lines) {
       const double u = u0 + t * (u1 - u0);
       const double v = v0 + t * (v1 - v0);
       if (u < 0.05 || u > 0.95 || v < 0.05 || v > 0.95) continue;
-      const bool close = std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
+      const bool close = std::ranges::any_of(taken, [&](const auto& other) {
         return std::abs(other.first - u) < 0.09 && std::abs(other.second - v) < 0.08;
       });
       if (close || std::abs(v - slant(u)) >= best) continue;
@@ -246,8 +242,8 @@ std::string data_of_lines(const Response& response, const Lines& lines) {
 }
 
 bool has_gaps(const Response& response) {
-  return std::any_of(response.grid.values.begin(), response.grid.values.end(),
-                     [](double value) { return !std::isfinite(value); });
+  return std::ranges::any_of(response.grid.values,
+                             [](double value) { return !std::isfinite(value); });
 }
 
 std::string map(const Response& response) {
@@ -280,10 +276,10 @@ std::string map(const Response& response) {
       plots.push_back(std::string("$contours using 1:2:($3-$1):($4-$2) with vectors nohead ") +
                       style + " notitle");
   if (has_gaps(response))
-    plots.push_back(csv(response) + " using (" + known + " ? " + plot::gnuplot_column(x) +
-                    " : NaN):(" + plot::gnuplot_column(y) +
-                    ") with points pointtype 2 pointsize 0.8 linewidth 1.2 linecolor rgb '#D55E00' "
-                    "notitle");
+    plots.push_back(
+        csv(response) + " using (" + known + " ? " + plot::gnuplot_column(x) + " : NaN):(" +
+        plot::gnuplot_column(y) +
+        ") with points pointtype 2 pointsize 0.8 linewidth 1.2 linecolor rgb '#D55E00' notitle");
   return text + "plot \\\n  " + joined(plots, ", \\\n  ") + "\n" + "unset label\n" +
          plot::gnuplot_linear("cb") + plot::gnuplot_linear("y") + "set yrange [*:*]\n";
 }
@@ -403,8 +399,7 @@ std::vector<const FactorColumn*> numbers_by_weight(const SweepColumns& columns,
     const double correlation = rank_correlation(factor.values, output.values);
     all.emplace_back(std::isfinite(correlation) ? std::abs(correlation) : 0.0, &factor);
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<const FactorColumn*> factors;
   for (const auto& [weight, factor] : all) factors.push_back(factor);
   return factors;
@@ -464,8 +459,8 @@ std::optional<plot::Sheet> points_sheet(const SweepColumns& columns, const Outpu
                                         const std::string& title) {
   const auto factors = numbers_by_weight(columns, output);
   if (factors.empty()) return std::nullopt;
-  const bool failed = std::any_of(output.values.begin(), output.values.end(),
-                                  [](double value) { return !std::isfinite(value); });
+  const bool failed =
+      std::ranges::any_of(output.values, [](double value) { return !std::isfinite(value); });
   const Shown of_output = shown(output);
   std::vector<std::string> panels;
   if (factors.size() > 1)
@@ -647,7 +642,7 @@ std::string extremes(const SweepColumns& columns, const OutputColumn& output) {
   const Ends range = ends(output.values);
   if (!(range.low < range.high)) return {};
   const auto at = [&](double value) {
-    return static_cast<std::size_t>(std::find(output.values.begin(), output.values.end(), value) -
+    return static_cast<std::size_t>(std::ranges::find(output.values, value) -
                                     output.values.begin());
   };
   return "Smallest in " + case_text(columns, at(range.low)) + ", largest in " +

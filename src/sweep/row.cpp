@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "fit/case_fits.h"
 #include "record/csv.h"
-#include "record/table.h"
 
 namespace palpate::sweep {
 namespace {
@@ -18,15 +17,6 @@ namespace {
 constexpr std::size_t digits = 16;  // of ids
 
 }  // namespace
-
-const char* outcome_word(SweepOutcome outcome) {
-  switch (outcome) {
-    case SweepOutcome::completed: return "completed";
-    case SweepOutcome::diverged: return "diverged";
-    case SweepOutcome::failed: return "failed";
-  }
-  return "";
-}
 
 std::string id_text(std::uint64_t id) {
   constexpr std::string_view hex = "0123456789abcdef";
@@ -46,16 +36,18 @@ std::optional<std::uint64_t> id_of(std::string_view text) {
 record::Table journal_row(const SweepRow& row) {
   record::Table values{{"name", "value"}, {}};
   for (const record::Finding& value : row.values) values.rows.push_back({value.name, value.value});
-  record::Table warnings{{"warning"}, {}};
-  for (const std::string& warning : row.warnings) warnings.rows.push_back({warning});
+  record::Table neglected{{"what", "change", "when", "remedy", "beside"}, {}};
+  for (const record::Neglected& one : row.neglected)
+    neglected.rows.push_back({one.what, one.change ? record::Cell(*one.change) : record::Cell(),
+                              one.when, one.remedy, one.beside});
   const std::string curve = row.curve.columns.empty() ? "" : record::csv_text(row.curve);
-  return {{"id", "attempt", "outcome", "reason", "name", "values", "warnings", "curve"},
+  return {{"id", "attempt", "outcome", "reason", "name", "values", "neglected", "curve"},
           {{id_text(row.id), static_cast<double>(row.attempt), outcome_word(row.outcome),
-            row.reason, row.name, record::csv_text(values), record::csv_text(warnings), curve}}};
+            row.reason, row.name, record::csv_text(values), record::csv_text(neglected), curve}}};
 }
 
 std::optional<SweepHead> head_of(const record::Table& row) {
-  for (const char* column : {"id", "outcome", "reason", "name", "values", "warnings", "curve"})
+  for (const char* column : {"id", "outcome", "reason", "name", "values", "neglected", "curve"})
     if (record::value_in<std::string>(row, column) == nullptr) return std::nullopt;
   const auto id = id_of(*record::value_in<std::string>(row, "id"));
   const auto* attempt = record::value_in<double>(row, "attempt");
@@ -83,10 +75,14 @@ std::optional<SweepRow> row_of(const record::Table& row) {
       if (name == nullptr || value.size() != 2) return std::nullopt;
       read.values.push_back({*name, std::move(value[1])});
     }
-    for (const auto& warning : record::parse_csv(word("warnings"), "warnings").rows) {
-      const auto* sentence = std::get_if<std::string>(warning.data());
-      if (sentence == nullptr) return std::nullopt;
-      read.warnings.push_back(*sentence);
+    for (const auto& cells : record::parse_csv(word("neglected"), "neglected").rows) {
+      if (cells.size() != 5) return std::nullopt;
+      record::Neglected& one = read.neglected.emplace_back();
+      if (const auto* change = std::get_if<double>(&cells[1])) one.change = *change;
+      for (const auto& [k, text] : {std::pair(0, &one.what), std::pair(2, &one.when),
+                                    std::pair(3, &one.remedy), std::pair(4, &one.beside)})
+        if (const auto* given = std::get_if<std::string>(&cells[as_index(k)])) *text = *given;
+      if (one.what.empty()) return std::nullopt;
     }
     if (!word("curve").empty()) read.curve = record::parse_csv(word("curve"), "curve");
   } catch (const InputError&) {
@@ -104,7 +100,7 @@ record::Cell known(double value) {
 
 // Replaces the spaces in a curve's name, as in `force_indentation x 0.1`.
 std::string column_word(std::string text) {
-  std::replace(text.begin(), text.end(), ' ', '_');
+  std::ranges::replace(text, ' ', '_');
   return text;
 }
 
@@ -135,10 +131,7 @@ record::Table curve_of(const record::CaseRecord& record) {
 }  // namespace
 
 SweepRow row_of(const scene::Scene& scene, const record::CaseRecord& record, bool keeps_curve) {
-  SweepRow row{.reason = record.reason, .name = record.name, .warnings = record.warnings};
-  if (!record.answer.complete) row.warnings.push_back(record.answer.neglected);
-  if (!record.answer.uncounted.empty())
-    row.warnings.push_back(std::string(not_counted) + record.answer.uncounted);
+  SweepRow row{.reason = record.reason, .name = record.name, .neglected = record.answer.effects};
   if (record.outcome == record::Outcome::diverged) row.outcome = SweepOutcome::diverged;
   for (const record::Finding& finding : record.findings)
     if (finding.name != "outcome") row.values.push_back(finding);

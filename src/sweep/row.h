@@ -15,10 +15,9 @@
 namespace palpate::sweep {
 
 enum class SweepOutcome : std::uint8_t { completed, diverged, failed };
-[[nodiscard]] const char* outcome_word(SweepOutcome outcome);
-
-// Begins the sentence, among the warnings of a row, on what its stated error does not contain.
-inline constexpr std::string_view not_counted = "not counting ";
+[[nodiscard]] constexpr const char* outcome_word(SweepOutcome outcome) {
+  return name_of<SweepOutcome::failed>(outcome);
+}
 
 // The part of a row that is kept in memory for every case.
 struct SweepHead {
@@ -35,7 +34,7 @@ struct SweepRow {
   std::string reason = {};                   // a sentence; empty if completed
   std::string name = {};                     // of the case
   std::vector<record::Finding> values = {};  // findings, then the parameters of fits
-  std::vector<std::string> warnings = {};
+  std::vector<record::Neglected> neglected = {};
   record::Table curve = {};  // without the column `case`; no columns if curves are not kept
 };
 

@@ -14,9 +14,7 @@
 #include "base/stop_scope.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "run/family.h"
 #include "run/refined_mesh.h"
-#include "run/share_out.h"
 #include "scene/estimates.h"
 #include "scene/specimen_shape.h"
 #include "scene/surface_displacement_store.h"
@@ -159,7 +157,7 @@ class Runner {
           nodes += scene::expected_nodes(made.one->scenario.tissue.mesh);
       }
       for (const std::span part = std::span(block).subspan(at, end - at);
-           !ends() && std::any_of(part.begin(), part.end(), waits);)
+           !ends() && std::ranges::any_of(part, waits);)
         run_part(part);
       at = end;
     }

@@ -15,7 +15,7 @@ namespace palpate::sweep {
 namespace {
 
 bool all_numbers(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
 }
 
 // Adds a note; outputs with the same sentence share one note.
@@ -40,12 +40,11 @@ void saltelli(const SweepColumns& columns, const OutputColumn& output,
   const std::size_t blocks = output.values.size() / block;
   const std::size_t whole = kept.size() / block;
   if (whole < blocks)
-    note(
-        found, output.name,
-        std::to_string(blocks - whole) + " of " + std::to_string(blocks) + " blocks of " +
-            std::to_string(block) +
-            " cases are excluded, because one of their cases failed or is missing; if that depends "
-            "on the factors, the indices are biased");
+    note(found, output.name,
+         std::to_string(blocks - whole) + " of " + std::to_string(blocks) + " blocks of " +
+             std::to_string(block) +
+             " cases are excluded, because one of their cases failed or is missing; if that "
+             "depends on the factors, the indices are biased");
   if (whole < 2) {
     note(found, output.name, "at least two complete blocks are needed; run what is missing");
     return;
@@ -58,8 +57,8 @@ void saltelli(const SweepColumns& columns, const OutputColumn& output,
 
 void grid(const SweepColumns& columns, const OutputColumn& output, Sensitivity& found) {
   const auto gaps =
-      output.values.size() - as_index(std::count_if(output.values.begin(), output.values.end(),
-                                                    [](double v) { return std::isfinite(v); }));
+      output.values.size() -
+      as_index(std::ranges::count_if(output.values, [](double v) { return std::isfinite(v); }));
   if (gaps > 0) {
     note(found, output.name,
          std::to_string(gaps) + " of " + std::to_string(output.values.size()) +
@@ -79,8 +78,8 @@ void grid(const SweepColumns& columns, const OutputColumn& output, Sensitivity& 
 std::vector<double> ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   std::vector<double> rank(values.size());
   for (std::size_t i = 0; i < order.size();) {
     std::size_t end = i;
@@ -222,7 +221,7 @@ void estimate(std::span<const double> sum, std::size_t blocks, Estimates& out) {
 
 // The ends of the middle 95 % of the numbers.
 Share interval(double value, std::vector<double>& sample) {
-  std::sort(sample.begin(), sample.end());
+  std::ranges::sort(sample);
   const auto at = [&](double share) {
     return sample[as_index(std::lround(share * static_cast<double>(sample.size() - 1)))];
   };
@@ -241,7 +240,7 @@ std::vector<Indices> saltelli_indices(std::span<const double> values, std::size_
     const double* const terms = sums.terms.data() + block * width;
     for (std::size_t k = 0; k < width; ++k) sum[k] += terms[k];
   };
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto [least, most] = std::ranges::minmax_element(values);
   if (*least == *most) return std::vector<Indices>(factors, {exactly(unknown), exactly(unknown)});
 
   std::vector<double> sum(width, 0.0);
@@ -253,7 +252,7 @@ std::vector<Indices> saltelli_indices(std::span<const double> values, std::size_
   std::mt19937_64 generator(options.seed);
   Estimates resampled = of_all;
   for (std::size_t r = 0; r < options.resamples; ++r) {
-    std::fill(sum.begin(), sum.end(), 0.0);
+    std::ranges::fill(sum, 0.0);
     // The remainder's bias towards small numbers is below blocks / 2^64.
     for (std::size_t j = 0; j < blocks; ++j) add_block(generator() % blocks, sum);
     estimate(sum, blocks, resampled);

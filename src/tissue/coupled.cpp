@@ -69,7 +69,7 @@ Element element(const Network& network, const geometry::TetMesh& mesh, std::size
     const int a = corners[as_index(corner_edges[s][0])];
     const int b = corners[as_index(corner_edges[s][1])];
     const std::array<int, 2> ends{std::min(a, b), std::max(a, b)};
-    const auto found = std::lower_bound(network.ends.begin(), network.ends.end(), ends);
+    const auto found = std::ranges::lower_bound(network.ends, ends);
     assert(found != network.ends.end() && *found == ends);
     const auto spring = found - network.ends.begin();
     result.springs[s] = static_cast<int>(spring);
@@ -97,8 +97,7 @@ SharedVolume average(const std::vector<Element>& all, std::span<const int> aroun
     for (int s = 0; s < 6; ++s)
       terms.emplace_back(one.springs[as_index(s)], one.volume * one.dilation(s));
   }
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(terms, [](const auto& a, const auto& b) { return a.first < b.first; });
   SharedVolume shared;
   shared.stiffness = modulus * 0.25 * sum;
   shared.node = node;
@@ -118,16 +117,13 @@ void add_averages(Network& network, const geometry::TetMesh& mesh, const std::ve
                   std::span<const double> modulus) {
   struct Use {
     int node, region, tetrahedron;
-    bool operator<(const Use& other) const {
-      return std::tie(node, region, tetrahedron) <
-             std::tie(other.node, other.region, other.tetrahedron);
-    }
+    auto operator<=>(const Use& other) const = default;
   };
   std::vector<Use> uses;
   uses.reserve(4 * all.size());
   for (int t = 0; t < static_cast<int>(all.size()); ++t)
     for (const int node : mesh.tetrahedra[as_index(t)]) uses.push_back({node, mesh.region(t), t});
-  std::sort(uses.begin(), uses.end());
+  std::ranges::sort(uses);
   std::vector<int> around;
   for (std::size_t i = 0; i < uses.size(); ++i) {
     around.push_back(uses[i].tetrahedron);

@@ -86,8 +86,7 @@ void changes_of(const Network& network, const SharedVolume& volume, std::span<co
     changes.emplace_back(network.ends[s][0], -pull);
     changes.emplace_back(network.ends[s][1], pull);
   }
-  std::stable_sort(changes.begin(), changes.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(changes, [](const auto& a, const auto& b) { return a.first < b.first; });
   std::size_t kept = 0;
   for (std::size_t i = 1; i < changes.size(); ++i)
     if (changes[i].first == changes[kept].first)
@@ -218,8 +217,8 @@ void restrict_couplings(const Network& whole, const std::vector<int>& node_numbe
   };
   for (const CoupledSprings& six : whole.coupled) {
     CoupledSprings kept{.springs = {}, .stiffness = six.stiffness};
-    std::transform(six.springs.begin(), six.springs.end(), kept.springs.begin(), in_part);
-    if (std::all_of(kept.springs.begin(), kept.springs.end(), [](int s) { return s >= 0; }))
+    std::ranges::transform(six.springs, kept.springs.begin(), in_part);
+    if (std::ranges::all_of(kept.springs, [](int s) { return s >= 0; }))
       part.network.coupled.push_back(kept);
   }
   for (const SharedVolume& volume : whole.volumes) {
@@ -233,8 +232,7 @@ void restrict_couplings(const Network& whole, const std::vector<int>& node_numbe
     }
     if (kept.springs.size() == volume.springs.size() && volume.node >= 0)
       kept.node = node_number[as_index(volume.node)];
-    if (std::any_of(kept.springs.begin(), kept.springs.end(), moves))
-      part.network.volumes.push_back(std::move(kept));
+    if (std::ranges::any_of(kept.springs, moves)) part.network.volumes.push_back(std::move(kept));
   }
 }
 

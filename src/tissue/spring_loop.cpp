@@ -13,31 +13,8 @@
 namespace palpate::tissue {
 namespace {
 
-using Four = double __attribute__((vector_size(32)));
 using Springs = SpringLoop::Springs;
 using Node = SpringLoop::Node;
-
-PALPATE_ALWAYS Four load(const double* from) {
-  Four values;
-  __builtin_memcpy(&values, from, sizeof values);
-  return values;
-}
-PALPATE_ALWAYS void store(double* to, const Four& values) {
-  __builtin_memcpy(to, &values, sizeof values);
-}
-
-// For each argument the sum of its first three numbers.
-PALPATE_ALWAYS Four sums(const Four* p) {
-  const Four xz_ab = __builtin_shufflevector(p[0], p[1], 0, 4, 2, 6);
-  const Four y_ab = __builtin_shufflevector(p[0], p[1], 1, 5, 3, 7);
-  const Four xz_cd = __builtin_shufflevector(p[2], p[3], 0, 4, 2, 6);
-  const Four y_cd = __builtin_shufflevector(p[2], p[3], 1, 5, 3, 7);
-  return __builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5) +
-         (__builtin_shufflevector(y_ab, y_cd, 0, 1, 4, 5) +
-          __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7));
-}
-
-PALPATE_ALWAYS Four all(double value) { return Four{value, value, value, value}; }
 
 PALPATE_ALWAYS Four root(const Four& x) {
 #if defined(__x86_64__)
@@ -69,7 +46,7 @@ PALPATE_ALWAYS Stretched stretch(const Springs springs, const Node* nodes, std::
     now.span[j] = rest + change;
   }
   // As in springs.cpp.                                           docs/theory.md [elongation]
-  const Four squares = sums(product);
+  const Four squares = sums(product[0], product[1], product[2], product[3]);
   const Four rest = load(springs.rest_length + first);
   if (springs.squared) {
     now.per_length = 1.0 / rest;
@@ -139,7 +116,7 @@ PALPATE_WIDE void pass_rates(const Springs springs, const Node* nodes, double* r
       product[j] = now.span[j] * (load(nodes[springs.ends[2 * s + 1]].force) -
                                   load(nodes[springs.ends[2 * s]].force));
     }
-    store(rate + first, now.per_length * sums(product));
+    store(rate + first, now.per_length * sums(product[0], product[1], product[2], product[3]));
   }
 }
 
@@ -167,7 +144,7 @@ SpringLoop::SpringLoop(const Network& network, Kinematics kinematics) {
     ends_[2 * s] = a;
     ends_[2 * s + 1] = b;
     const Vec3 rest = network.rest[as_index(b)] - network.rest[as_index(a)];
-    std::copy(rest.begin(), rest.end(), &span_[3 * s]);
+    std::ranges::copy(rest, &span_[3 * s]);
     rest_length_[s] = network.rest_length[s];
     stiffness_[s] = network.stiffness[s];
   }
@@ -213,7 +190,7 @@ void SpringLoop::rates(const Vector& displacement, const Vector& velocity, std::
 
 void SpringLoop::pull(const Vector& displacement, std::span<const double> tension, Vector& force) {
   place(displacement);
-  std::copy(tension.begin(), tension.end(), values_.begin());
+  std::ranges::copy(tension, values_.begin());
   pass_pull(springs_, nodes_.data(), values_.data());
   collect(force);
 }

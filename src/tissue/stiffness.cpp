@@ -56,7 +56,7 @@ std::vector<double> edge_volumes(const geometry::TetMesh& mesh,
       const int a = mesh.tetrahedra[t][as_index(i)];
       const int b = mesh.tetrahedra[t][as_index(j)];
       const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
-      const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+      const auto found = std::ranges::lower_bound(edges, edge);
       volumes[as_index(found - edges.begin())] += volume;
     }
   }

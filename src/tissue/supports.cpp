@@ -29,10 +29,10 @@ std::vector<char> held_by_base(const geometry::TetMesh& mesh, Base base, double 
   if (base == Base::frictionless) {
     // The node with the smallest x + y is pinned; the one with the largest x - y keeps its y.
     const auto place = [&](int node) { return mesh.nodes[as_index(node)]; };
-    const int pin = *std::min_element(nodes.begin(), nodes.end(), [&](int a, int b) {
+    const int pin = *std::ranges::min_element(nodes, [&](int a, int b) {
       return place(a).x() + place(a).y() < place(b).x() + place(b).y();
     });
-    const int guide = *std::max_element(nodes.begin(), nodes.end(), [&](int a, int b) {
+    const int guide = *std::ranges::max_element(nodes, [&](int a, int b) {
       return place(a).x() - place(a).y() < place(b).x() - place(b).y();
     });
     hold(pin, 0);

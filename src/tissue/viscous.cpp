@@ -73,7 +73,7 @@ void effective_elongations(const ViscousLaw& law, std::span<const MemoryStep> st
       effective[s] = kelvin_voigt(steps[0], memory[s], memory[count + s], elongation[s]);
     return;
   }
-  std::copy(elongation.begin(), elongation.end(), effective.begin());
+  std::ranges::copy(elongation, effective.begin());
   for (std::size_t i = 0; i < steps.size(); ++i) {
     // s/k = e + sum of k_i/k (e - q_1)                               docs/theory.md [branches]
     const double* const inner = &memory[(1 + i) * count];
@@ -107,7 +107,7 @@ void remember(const ViscousLaw& law, std::span<const MemoryStep> steps,
         inner[s] = keep * inner[s] + begin * memory[s] + end * elongation[s];
     }
   }
-  std::copy(elongation.begin(), elongation.end(), memory.begin());
+  std::ranges::copy(elongation, memory.begin());
 }
 
 }  // namespace palpate::tissue

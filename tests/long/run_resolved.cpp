@@ -11,8 +11,8 @@
 #include "mechanics/resolved_contact.h"
 #include "run/family.h"
 #include "run_text.h"
-#include "scene/contact_resolution.h"
 #include "scene/first_touch.h"
+#include "scene/scene.h"
 
 namespace palpate {
 namespace {

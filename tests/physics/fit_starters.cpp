@@ -50,7 +50,7 @@ TEST(Starters, CreepIsThatOfTheSolidAndItsFitsReturnTheCreepTime) {
     EXPECT_NEAR(one.fit.parameters.back().estimate, creep_time, within) << one.curve;
   ASSERT_TRUE(scene.choice.taken());
   EXPECT_LE(scene.choice.taken()->error, 0.0011);
-  EXPECT_TRUE(record.answer.complete);
+  EXPECT_TRUE(record.answer.effects.empty());
 }
 
 // E (1 + sum b_k exp(-t / tau_k)) of muscle.

@@ -196,6 +196,22 @@ TEST(ChartTable, SentencesToActOn) {
             std::string::npos);
 }
 
+// A page's headline has the configuration already, and its table what the lists say.
+TEST(ChartTable, SentencesOfAPage) {
+  const ChartSentences said = chart_sentences(model_table());
+  EXPECT_EQ(said.reference, "Reference: some sentence.");
+  EXPECT_EQ(said.result,
+            "Within the tolerance of 5 %, the cheapest is `auto` (2 %, 2 µs per ms): `--set "
+            "solver.model=knee`; `auto` took it.");
+  EXPECT_EQ(said.settings, "Its settings: `--set solver.model=knee`; `auto` took it.");
+  ASSERT_EQ(said.more.size(), 2U);
+  EXPECT_TRUE(said.more[0].starts_with("The knee is `auto`")) << said.more[0];
+  EXPECT_TRUE(said.more[1].starts_with("In real time")) << said.more[1];
+  CaseChart none = model_table();
+  none.tolerance = 1e-4;
+  EXPECT_EQ(chart_sentences(none).settings, "");
+}
+
 TEST(ChartTable, InTimeAlone) {
   CaseChart chart = model_table();
   chart.rows[0].time_error = Deviation{0.0, 0.0, 0.0};

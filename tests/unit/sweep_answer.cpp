@@ -6,10 +6,11 @@
 namespace palpate::sweep {
 namespace {
 
-SweepRow row(const char* model, std::optional<double> error, const std::string& neglected = "") {
-  SweepRow made{.values = {{"model", std::string(model)}}};
+using Effects = std::vector<record::Neglected>;
+
+SweepRow row(const char* model, std::optional<double> error, const Effects& neglected = {}) {
+  SweepRow made{.values = {{"model", std::string(model)}}, .neglected = neglected};
   if (error) made.values.push_back({"stated_error", *error});
-  if (!neglected.empty()) made.warnings = {"the finger is too fast", "Neglected: " + neglected};
   return made;
 }
 
@@ -17,10 +18,12 @@ using Lines = std::vector<std::string>;
 
 TEST(SweepAnswers, TellModelsErrorsAndTheLargestOfEachEffect) {
   SweepAnswer answer;
-  answer.see(row("hertz", 0.012, "viscosity, which would add 9.5 % to the force; add `a`."), 1);
+  answer.see(row("hertz", 0.012,
+                 {{"viscosity", -0.095, "which would take 9.5 % off the force", "add `a`"}}),
+             1);
   answer.see(row("solid", 0.034,
-                 "viscosity, which would add 75 % to the force; add `a`. Also neglected: an edge, "
-                 "which may change it by up to 12 %."),
+                 {{"viscosity", 0.75, "which would add 75 % to the force", "add `b`"},
+                  {"an edge", 0.12, "which may change it by up to 12 %"}}),
              2);
   answer.see(row("solid", 0.02), 3);
   EXPECT_EQ(answer.error(), "± 1.2 % to 3.4 %");
@@ -29,15 +32,14 @@ TEST(SweepAnswers, TellModelsErrorsAndTheLargestOfEachEffect) {
   EXPECT_EQ(answer.lines(),
             (Lines{"Model: hertz in 1 of 3 cases, solid in 2 of 3 cases.",
                    "Neglected in 2 of 3 cases, most in case 2: viscosity, which would add 75 % to "
-                   "the force; add `a`.",
+                   "the force; add `b`.",
                    "Neglected in 1 of 3 cases: an edge, which may change it by up to 12 %."}));
 }
 
 TEST(SweepAnswers, TellWhatTheirErrorsDoNotCount) {
   SweepAnswer answer;
-  SweepRow viscous = row("hertz", 0.012);
-  viscous.warnings.emplace_back("not counting viscosity");
-  answer.see(viscous, 1);
+  const Effects viscous{{.what = "viscosity", .change = 0.1, .beside = "viscosity"}};
+  answer.see(row("hertz", 0.012, viscous), 1);
   EXPECT_EQ(answer.error(), "± 1.2 %, not counting viscosity");
   answer.see(row("hertz", 0.012), 2);
   EXPECT_EQ(answer.error(), "± 1.2 %, not counting viscosity in 1 of 2 cases");
@@ -47,7 +49,7 @@ TEST(SweepAnswers, SayWhereNothingIsNeglectedOrKnown) {
   SweepAnswer answer;
   EXPECT_EQ(answer.error(), "");
   EXPECT_EQ(answer.lines(), Lines{});
-  SweepRow failed = row("hertz", 0.5, "all of it, 99 %.");
+  SweepRow failed = row("hertz", 0.5, {{"all of it", 0.99, "which is 99 %"}});
   failed.outcome = SweepOutcome::failed;
   answer.see(failed, 1);
   EXPECT_EQ(answer.lines(), Lines{}) << "a case that failed has no say";

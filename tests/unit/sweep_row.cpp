@@ -25,7 +25,8 @@ SweepRow example() {
                 {"nothing", std::monostate{}},
                 {"empty", std::string()},
                 {"model", std::string("nan")}};
-  row.warnings = {"Deep.", "", "\\t is no tab"};
+  row.neglected = {{"viscosity", 0.1 + 0.2, "which \\t is no tab", "add `a`", "viscosity"},
+                   {.what = "an edge", .when = "which is \"near\""}};
   row.curve = {{"time_s", "force_N"}, {{0.0, 1.0}, {0.1, std::monostate{}}, {0.2, -1e-300}}};
   return row;
 }
@@ -58,7 +59,12 @@ TEST(SweepRow, is_read_back_to_the_bit) {
   EXPECT_EQ(back->outcome, SweepOutcome::diverged);
   EXPECT_EQ(back->reason, row.reason);
   EXPECT_EQ(back->name, row.name);
-  EXPECT_EQ(back->warnings, row.warnings);
+  ASSERT_EQ(back->neglected.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back->neglected[i].sentence(), row.neglected[i].sentence());
+    EXPECT_EQ(back->neglected[i].change, row.neglected[i].change);
+    EXPECT_EQ(back->neglected[i].beside, row.neglected[i].beside);
+  }
   ASSERT_EQ(back->values.size(), row.values.size());
   for (std::size_t i = 0; i < row.values.size(); ++i) {
     EXPECT_EQ(back->values[i].name, row.values[i].name);
@@ -75,7 +81,7 @@ TEST(SweepRow, one_without_anything_is_read_back) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->id, 7U);
   EXPECT_TRUE(back->values.empty());
-  EXPECT_TRUE(back->warnings.empty());
+  EXPECT_TRUE(back->neglected.empty());
   EXPECT_TRUE(back->curve.columns.empty());
 }
 
@@ -90,7 +96,8 @@ TEST(SweepRow, one_with_cells_of_another_kind_is_none) {
     EXPECT_FALSE(row_of(with("attempt", attempt))) << attempt;
   for (const char* text : {"name,value\n1,2\n", "name\nx\n", "name,value\nx\n", ""})
     EXPECT_FALSE(row_of(with("values", std::string(text)))) << text;
-  EXPECT_FALSE(row_of(with("warnings", std::string("warning\n1\n"))));
+  for (const char* text : {"what\nx\n", "what,change,when,remedy,beside\n1,2,a,b,c\n", ""})
+    EXPECT_FALSE(row_of(with("neglected", std::string(text)))) << text;
   EXPECT_FALSE(row_of(with("curve", std::string("a,a\n1,2\n"))));
 }
 
