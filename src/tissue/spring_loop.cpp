@@ -127,11 +127,21 @@ PALPATE_WIDE void pass_pull(const Springs springs, Node* nodes, const double* te
   }
 }
 
+// Where a spring stands in the loop. Successive ones mostly have their first node in common, whose
+// force each would wait for: the four of a chunk are sixteen apart.
+constexpr std::size_t apart = 16;
+constexpr std::size_t block = apart * SpringLoop::chunk;
+
+std::size_t slot(std::size_t spring) {
+  const std::size_t in_block = spring % block;
+  return spring - in_block + SpringLoop::chunk * (in_block % apart) + in_block / apart;
+}
+
 }  // namespace
 
 SpringLoop::SpringLoop(const Network& network, Kinematics kinematics) {
   const std::size_t count = network.ends.size();
-  const std::size_t padded = (count + chunk - 1) / chunk * chunk;
+  const std::size_t padded = (count + block - 1) / block * block;
   const auto nobody = static_cast<std::int32_t>(network.rest.size());
   nodes_.resize(network.rest.size() + 1);
   ends_.assign(2 * padded, nobody);
@@ -141,12 +151,13 @@ SpringLoop::SpringLoop(const Network& network, Kinematics kinematics) {
   values_.assign(padded, 0.0);
   for (std::size_t s = 0; s < count; ++s) {
     const auto [a, b] = network.ends[s];
-    ends_[2 * s] = a;
-    ends_[2 * s + 1] = b;
+    const std::size_t at = slot(s);
+    ends_[2 * at] = a;
+    ends_[2 * at + 1] = b;
     const Vec3 rest = network.rest[as_index(b)] - network.rest[as_index(a)];
-    std::ranges::copy(rest, &span_[3 * s]);
-    rest_length_[s] = network.rest_length[s];
-    stiffness_[s] = network.stiffness[s];
+    std::ranges::copy(rest, &span_[3 * at]);
+    rest_length_[at] = network.rest_length[s];
+    stiffness_[at] = network.stiffness[s];
   }
   springs_ = {.squared = kinematics == Kinematics::squared,
               .count = padded,
@@ -176,7 +187,7 @@ double SpringLoop::elastic(const Vector& displacement, Vector& force) {
 void SpringLoop::elongations(const Vector& displacement, std::span<double> elongation) {
   place(displacement);
   pass_elongations(springs_, nodes_.data(), values_.data());
-  std::copy_n(values_.begin(), elongation.size(), elongation.begin());
+  for (std::size_t s = 0; s < elongation.size(); ++s) elongation[s] = values_[slot(s)];
 }
 
 void SpringLoop::rates(const Vector& displacement, const Vector& velocity, std::span<double> rate) {
@@ -185,12 +196,12 @@ void SpringLoop::rates(const Vector& displacement, const Vector& velocity, std::
     for (std::size_t i = 0; i < 3; ++i)
       nodes_[n].force[i] = velocity[static_cast<Eigen::Index>(3 * n + i)];
   pass_rates(springs_, nodes_.data(), values_.data());
-  std::copy_n(values_.begin(), rate.size(), rate.begin());
+  for (std::size_t s = 0; s < rate.size(); ++s) rate[s] = values_[slot(s)];
 }
 
 void SpringLoop::pull(const Vector& displacement, std::span<const double> tension, Vector& force) {
   place(displacement);
-  std::ranges::copy(tension, values_.begin());
+  for (std::size_t s = 0; s < tension.size(); ++s) values_[slot(s)] = tension[s];
   pass_pull(springs_, nodes_.data(), values_.data());
   collect(force);
 }
