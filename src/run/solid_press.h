@@ -1,6 +1,7 @@
 // A press by the model `solid`: contacts, rows and findings.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,7 +55,8 @@ class SolidPress {
   enum class Surface { smooth, flat, unchanged, split };
   // Makes the presses, and again with simpler bodies where one cannot be meshed. Throws MeshError.
   void make();
-  [[nodiscard]] std::unique_ptr<solid::FingerPress> made(std::size_t mesh);
+  [[nodiscard]] std::unique_ptr<solid::FingerPress> made(std::size_t mesh,
+                                                         const std::function<bool()>& over);
   // Whether there is a simpler body, which is then taken: smaller inclusions, then flat triangles,
   // then those of the file alone, then the same with edges that are only split.
   [[nodiscard]] bool simpler();
