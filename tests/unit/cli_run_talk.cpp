@@ -79,7 +79,8 @@ TEST_F(RunTalk, a_long_press_says_where_it_is) {
   write_file(folder_ / "press.toml",
              "[solver]\nmodel = \"solid\"\ntolerance = 0.005\n[tissue]\nviscosity = "
              "\"none\"\n[finger]\nmaterial = "
-             "\"rigid\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n");
+             "\"rigid\"\nx = \"25 mm\"\ny = \"27 mm\"\n[[step]]\nkind = \"indent\"\nto = \"1 "
+             "mm\"\n[output]\nfigures = false\n");
   const auto [code, seen] = on_terminal({"run", "press.toml"}, folder_.path(), " nodes, press to ");
   EXPECT_EQ(code, 130);
   EXPECT_NE(seen.find("/100, "), std::string::npos) << seen;  // of all meshes
