@@ -118,7 +118,7 @@ Json model(const scene::Forecast& forecast) {
 // errors, what is neglected, and of a case alone the processor time of its run. Errors and changes
 // are fractions; infinite numbers are null.
 std::string explain_json(const std::string& scenario, const scene::Scene& scene,
-                         const run::Expected& expected, std::optional<double> seconds) {
+                         const run::Expected& expected, const std::optional<run::Cost>& cost) {
   Json object{{"event", "explanation"},
               {"scenario", scenario},
               {"case", scene.name},
@@ -153,7 +153,10 @@ std::string explain_json(const std::string& scenario, const scene::Scene& scene,
                       {"springs", scene.specimen->network.springs()}};
     if (expected.mesh_error) object["mesh"]["error"] = *expected.mesh_error;
   }
-  if (seconds) object["seconds"] = rounded(*seconds, 3);
+  if (cost) {
+    object["seconds"] = rounded(cost->seconds, 3);
+    object["at_least"] = cost->at_least;
+  }
   return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -482,30 +485,36 @@ scenario::Family read_or_outline(const std::string& path,
 
 // The processor time of the whole run, s; `set_up`: what the scenes took of it. Of more cases than
 // `run` takes, what `palpate sweep` takes; nothing if a case of it fails.
-std::optional<double> cost_of(const scenario::Family& family,
-                              const std::vector<scene::Scene>& scenes, double set_up) {
+std::optional<run::Cost> cost_of(const scenario::Family& family,
+                                 const std::vector<scene::Scene>& scenes, double set_up) {
   constexpr double figures = 0.1;  // s, about, of figures and files
-  if (family.design.count() <= scenes.size())
-    return set_up + run::expected_seconds(scenes) + figures;
+  if (family.design.count() <= scenes.size()) {
+    run::Cost cost = run::expected_cost(scenes);
+    cost.seconds += set_up + figures;
+    return cost;
+  }
   const std::optional<sweep::SweepForecast> cost = sweep::forecast(family, false);
-  return cost ? std::optional(cost->seconds) : std::nullopt;
+  return cost ? std::optional(run::Cost{cost->seconds}) : std::nullopt;
 }
 
-void tell_cost(const scenario::Family& family, double seconds, const Talk& talk) {
+void tell_cost(const scenario::Family& family, const run::Cost& cost, const Talk& talk) {
+  const auto& [seconds, at_least] = cost;
   const std::size_t cases = std::max<std::size_t>(1, family.design.count());
   const double of_a_case = seconds / static_cast<double>(cases);
   if (talk.json())
     return talk.event("cost", {{"cases", cases},
                                {"seconds", rounded(seconds, 3)},
+                               {"at_least", at_least},
                                {"seconds_of_a_case", rounded(of_a_case, 3)}});
   const auto text = [](double time) {
     return time < 1.0    ? rounded_text(1e3 * time, 2) + " ms"
            : time < 60.0 ? rounded_text(time, 2) + " s"
                          : duration_text(time);
   };
-  print(
-      "\nThe whole takes about " + text(seconds) + " of processor time" +
-      (cases == 1 ? ".\n" : ": " + std::to_string(cases) + " cases of " + text(of_a_case) + ".\n"));
+  print("\nThe whole takes " + std::string(at_least ? "more than " : "about ") + text(seconds) +
+        " of processor time" +
+        (cases == 1 ? "" : ": " + std::to_string(cases) + " cases of " + text(of_a_case)) +
+        (at_least ? ", mostly less than a minute for one; `run` says how much is left.\n" : ".\n"));
 }
 
 // Of all cases together, before any has run.
@@ -564,7 +573,7 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
   const double set_up = processor_seconds() - start;
   std::vector<run::Expected> expected;
   for (const scene::Scene& scene : scenes) expected.push_back(run::expect(scene));
-  const std::optional<double> seconds = cost_of(family, scenes, set_up);
+  const std::optional<run::Cost> cost = cost_of(family, scenes, set_up);
   const std::size_t shown = case_shown(command, scenes);
   const bool several = family.design.count() > 1;
   const std::string text = Explanation(scenes[shown], expected[shown])
@@ -576,18 +585,18 @@ int perform(const Explain& command, const Arguments&, const Talk& talk) {
   if (talk.json()) {
     for (std::size_t i = 0; i < scenes.size(); ++i)
       print(explain_json(family.name, scenes[i], expected[i],
-                         family.design.empty() ? seconds : std::nullopt) +
+                         family.design.empty() ? cost : std::nullopt) +
             "\n");
-    if (seconds && !family.design.empty()) tell_cost(family, *seconds, talk);
+    if (cost && !family.design.empty()) tell_cost(family, *cost, talk);
   } else {
     const bool first_of_several = scenes.size() > 1 && command.case_name.empty();
     if (first_of_several) print(summary(scenes, expected));
-    if (first_of_several && seconds) tell_cost(family, *seconds, talk);
+    if (first_of_several && cost) tell_cost(family, *cost, talk);
     if (first_of_several)
       print("\nThe first of " + std::to_string(scenes.size()) + " cases; `--case " +
             shown_word(scenes.back().name) + "` shows the last.\n");
     print_text(text);
-    if (!first_of_several && seconds) tell_cost(family, *seconds, talk);
+    if (!first_of_several && cost) tell_cost(family, *cost, talk);
   }
   for (const Problem& note : family.notes) talk.say("note: " + note.text());  // the answer is first
   if (command.subject != "-") talk.next("run", command.subject);

@@ -116,7 +116,7 @@ Ran run_family(const Prepared& prepared, const Arguments& arguments, const Talk&
   folder.open();
   std::atomic<std::size_t> done{0};
   std::optional<ProgressLine> ticker(std::in_place, talk, [&](double seconds) {
-    return bar(done, scenes.size(), seconds) + ", " + family.name;
+    return (scenes.size() > 1 ? bar(done, scenes.size(), seconds) + ", " : "") + family.name;
   });
   std::mutex one_at_a_time;
   std::vector<std::vector<fit::NamedFit>> fits_of(scenes.size());

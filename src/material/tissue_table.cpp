@@ -124,6 +124,10 @@ Found find(const std::string& name, const std::string& folder, const Place& plac
   Reading reading =
       read_fields(table, [&](FieldVisitor& visitor) { fields(visitor, found.tissue, table); });
   require(table, table_name, member->place, reading.problems);
+  for (Problem& problem : reading.problems)
+    if (const Member* source = table.find("source"); source && problem.place == source->place)
+      problem.message =
+          "`source` belongs to a value: `young_modulus = { value = \"5 kPa\", source = \"...\" }`";
   sort_by_place(reading.problems);
   if (!reading.problems.empty()) throw InputError(reading.problems);
   if (found.tissue.title.empty()) found.tissue.title = table_name;

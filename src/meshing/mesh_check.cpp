@@ -218,6 +218,7 @@ Quality quality(const geometry::TetMesh& mesh) {
 
 std::string other_units(double size, const std::string& unit) {
   constexpr double least = 0.005, most = 2.0;  // m
+  if (size >= least && size <= most) return "";
   const double as_written = size / metres_per(unit);
   std::string text;
   for (const char* other : {"m", "cm", "mm", "um"}) {

@@ -95,13 +95,6 @@ Polygons obj(TableLines lines) {
   return polygons;
 }
 
-// Goes to item `i` of `count`.
-void item(TableLines& lines, const std::string& what, std::size_t i, std::size_t count) {
-  if (!lines.next())
-    lines.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(count) + " " +
-               what + "; it is cut short: export it again");
-}
-
 std::size_t count(const TableLines& lines, std::size_t i, const std::string& what) {
   const int number = i < lines.words().size() ? lines.whole(i, what) : -1;
   if (number < 0)
@@ -121,27 +114,29 @@ Polygons off(TableLines lines) {
   std::size_t at = 1;  // the counts may be in the line of `OFF` or in the next line
   if (lines.words().size() == 1) {
     at = 0;
-    item(lines, "header lines", 1, 2);
+    if (!lines.next()) lines.fail("the file ends after `OFF`; it is cut short: export it again");
   }
   const std::size_t vertices = count(lines, at, "the number of vertices");
   const std::size_t faces = count(lines, at + 1, "the number of faces");
+  std::size_t following = 0;
+  for (TableLines ahead = lines; ahead.next();) ++following;
+  if (following != vertices + faces)
+    lines.fail("the header counts " + std::to_string(vertices) + " vertices and " +
+               std::to_string(faces) + " faces, but " + std::to_string(following) +
+               " lines follow; mend the counts, or export the file again if it is cut short");
   Polygons polygons;
-  for (std::size_t i = 0; i < vertices; ++i) {
-    item(lines, "vertices", i, vertices);
+  for (std::size_t i = 0; i < vertices && lines.next(); ++i)
     polygons.vertices.push_back(point(lines, 0));
-  }
-  for (std::size_t i = 0; i < faces; ++i) {
-    item(lines, "faces", i, faces);
+  for (std::size_t i = 0; i < faces && lines.next(); ++i) {
     const auto corners = as_index(std::max(0, lines.whole(0, "a corner count")));
     if (corners < 3 || lines.words().size() <= corners)
-      lines.fail(too_few_corners(std::min(corners, lines.words().size() - 1)));
+      lines.fail("a face wants three corners or more, got " +
+                 std::to_string(std::min(corners, lines.words().size() - 1)) +
+                 "; mend the line, or the counts of the header if this is a vertex");
     std::vector<int> corner;
     for (std::size_t c = 1; c <= corners; ++c) corner.push_back(lines.whole(c, "a corner"));
     add_face(lines, std::move(corner), 0, vertices, polygons);
   }
-  if (lines.next())
-    lines.fail("the header counts " + std::to_string(vertices) + " vertices and " +
-               std::to_string(faces) + " faces, but another line follows; mend the counts");
   return polygons;
 }
 

@@ -67,11 +67,13 @@ double longest_edge(const Surface& surface, const std::array<int, 3>& triangle) 
 }
 
 // The largest distance, m, of the vertices of `from`, and of its triangles' centres and middles of
-// edges, from the surface in the tree. Adds those that are farther than `limit` to `far`.
-double farthest(const Surface& from, const geometry::BoxTree& to, double limit,
+// edges, from the surface in the tree. Adds those that are farther than `limit` to `far`, up to
+// `count` of them; then it looks no further.
+double farthest(const Surface& from, const geometry::BoxTree& to, double limit, std::size_t count,
                 std::vector<Vec3>& far) {
   double most = 0.0;
   const auto look = [&](const Vec3& point) {
+    if (far.size() == count) return;
     const double squared = to.nearest(point).distance_squared;
     if (squared > limit * limit) far.push_back(point);
     most = std::max(most, squared);
@@ -292,8 +294,10 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
         const std::size_t count = made->triangles.size();
         over = count >= most;
         if (over) break;
-        double distance = farthest(*made, original, limit, wrong);
-        distance = std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, wrong));
+        const std::size_t places = by_place ? SIZE_MAX : 1;
+        double distance = farthest(*made, original, limit, places, wrong);
+        distance =
+            std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, places, wrong));
         if (by_place) add_crossings(*made, wrong);
         if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
             std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&

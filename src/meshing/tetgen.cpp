@@ -32,7 +32,8 @@ geometry::TetMesh taken_mesh(ChildBytes& from) {
   from.take(mesh.regions);
   if (!from.done()) from.refuse();
   if (mesh.tetrahedra.empty())
-    throw MeshError("TetGen found no inside; close the surface, so that every edge has two faces");
+    throw TetgenError(
+        "TetGen found no inside; close the surface, so that every edge has two faces");
   return mesh;
 }
 
@@ -74,12 +75,12 @@ std::string by_tetgen(const std::function<std::string()>& work, double time_limi
         },
         {time_limit, most_memory});
   if (ended.end == End::timed_out || (ended.end == End::killed && ended.code == SIGXCPU))
-    throw MeshError("TetGen did not finish within " + rounded_text(time_limit) +
-                    " s; ask for fewer nodes or allow more time");
+    throw TetgenError("TetGen did not finish within " + rounded_text(time_limit) +
+                      " s; ask for fewer nodes or allow more time");
   if (ended.end == End::killed)
-    throw MeshError("TetGen crashed (signal " + std::to_string(ended.code) +
-                    "); look for facets that cross or fold, or change the node count a little");
-  if (ended.code != 0) throw MeshError(advice(ended.code));
+    throw TetgenError("TetGen crashed (signal " + std::to_string(ended.code) +
+                      "); look for facets that cross or fold, or change the node count a little");
+  if (ended.code != 0) throw TetgenError(advice(ended.code));
   return std::move(ended.output);
 }
 

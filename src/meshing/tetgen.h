@@ -6,9 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "geometry/surface.h"
 
 namespace palpate::meshing {
+
+// TetGen has found no mesh: the surface is to blame.
+struct TetgenError : MeshError {
+  using MeshError::MeshError;
+};
 
 // Runs TetGen 1.5 on a closed surface. `switches` are those of TetGen's manual, section 4.2, with
 // `p` and without `Q`, such as "pq1.414a1e-9" (lengths in m); `time_limit` in s, above 0. The
@@ -18,8 +24,8 @@ namespace palpate::meshing {
 // TetGen 1.5 has global data for its predicates (two threads would silently damage each other's
 // mesh), writes to stdout and may crash. It therefore runs in a forked child: any number of threads
 // may call this at once, and each gets the same bits as alone.
-// Throws MeshError, with advice, if TetGen refuses the surface, crashes, exceeds time or memory, or
-// finds no interior; SystemError if no child process can be started.
+// Throws TetgenError, with advice, if TetGen refuses the surface, crashes, exceeds time or memory,
+// or finds no interior; SystemError if no child process can be started.
 [[nodiscard]] geometry::TetMesh tetgen_surface(const geometry::Surface& surface,
                                                const std::string& switches, double time_limit);
 

@@ -427,6 +427,8 @@ geometry::Body body_of(geometry::Surface surface, std::span<const geometry::Incl
 
 FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclusion> inclusions,
                      const Target& target, double time_limit) {
+  constexpr double many = 0.1;           // of the triangles
+  constexpr double with_needles = 20.0;  // s
   FileMesh made;
   const std::size_t needles = count_needles(surface);
   const double spacing = target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length;
@@ -437,8 +439,23 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
     surface = std::move(better->surface);
     return true;
   };
+  bool full_of_needles = false;  // that stay
   const auto meshed = [&](const Target& wanted) {
-    return tetgen_body(body_of(surface, inclusions), wanted, time_limit);
+    const geometry::Body body = body_of(surface, inclusions);
+    if (!full_of_needles) return tetgen_body(body, wanted, time_limit);
+    try {
+      return tetgen_body(body, wanted, std::min(with_needles, time_limit));
+    } catch (const TooFewNodes&) {
+      throw;
+    } catch (const OtherNodes&) {
+      throw;
+    } catch (const MeshError&) {
+      throw Needles(std::to_string(needles) + " of the " +
+                    std::to_string(surface.triangles.size()) +
+                    " triangles of the surface are needles, with which TetGen finds no mesh, and "
+                    "even ones would miss its details or cut each other; remesh it in the program "
+                    "it comes from, with triangles of about equal sides");
+    }
   };
   std::exception_ptr failure;
   bool other_nodes = false;
@@ -451,6 +468,8 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
       failure = std::current_exception();
       other_nodes = true;
       return false;
+    } catch (const Needles&) {
+      throw;
     } catch (const MeshError&) {
       if (target.nodes == 0) throw;
       failure = std::current_exception();
@@ -472,7 +491,9 @@ FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclus
                     std::to_string(surface.triangles.size());
     return true;
   };
-  if (asked) (void)remesh();
+  if (asked && !remesh())
+    full_of_needles =
+        static_cast<double>(needles) > many * static_cast<double>(surface.triangles.size());
   if (attempt() || (!asked && remesh() && attempt()) || (split() && attempt())) return made;
   made.mesh = meshed({.edge_length = spacing_of(surface)});
   if (failure && static_cast<int>(made.mesh.nodes.size()) < target.nodes)

@@ -28,6 +28,12 @@ struct OtherNodes : MeshError {
   using MeshError::MeshError;
 };
 
+// The surface has needles that even triangles cannot replace, and TetGen makes no mesh with them,
+// whatever its size.
+struct Needles : MeshError {
+  using MeshError::MeshError;
+};
+
 // The mesh of a body. TetGen keeps every triangle of the surfaces and adds nodes inside only, so
 // the surfaces determine the smallest number of nodes; if that leaves too few nodes or triangles
 // that are too coarse, TetGen may split triangles. TetMesh::regions are the parts' `region`, or
@@ -55,7 +61,8 @@ struct FileMesh {
 // for, is coarsened first, and one with needles is remeshed: see surface_remeshing.h. Edges of
 // walls that are too thin for nodes inside are halved. If there is still no mesh near the number of
 // nodes, the mesh has the spacing of the surface. `time_limit` (s) is that of TetGen for each
-// attempt. Throws MeshError as tetgen_body() and add_inclusion() do.
+// attempt, which is shorter with needles. Throws MeshError as tetgen_body() and add_inclusion() do,
+// and Needles.
 [[nodiscard]] FileMesh tetgen_file(geometry::Surface surface,
                                    std::span<const geometry::Inclusion> inclusions,
                                    const Target& target, double time_limit);

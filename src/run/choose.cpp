@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "contact/layer.h"
+#include "meshing/tetgen_body.h"
 #include "run/family.h"
 #include "run/size_effect.h"
 #include "scenario/integrators.h"
@@ -340,6 +341,8 @@ class Chooser {
       } else {
         e.size = change;
       }
+    } catch (const meshing::Needles&) {  // no model has a mesh
+      throw;
     } catch (const MeshError&) {   // the models that mesh the body say why,
     } catch (const InputError&) {  // and where the mistake stands
     }

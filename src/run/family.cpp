@@ -124,23 +124,22 @@ std::optional<double> share_done(const scene::Scene& scene, const record::CaseRe
   return time > 0.0 && whole > 0.0 ? std::optional(std::min(1.0, time / whole)) : std::nullopt;
 }
 
-double expected_seconds(const std::vector<scene::Scene>& scenes) {
-  constexpr double longest = 3.0;  // s
-  // `solid` has no rows before its last mesh is done; most such cases are far.
-  constexpr double far = 1.0 / 3.0;
+Cost expected_cost(const std::vector<scene::Scene>& scenes, double longest) {
   const Stopwatch watch;
-  double sum = 0.0;
+  Cost cost;
   std::size_t tried = 0;
   for (; tried < scenes.size() && watch.seconds() < longest; ++tried) {
     const scene::Scene& scene = scenes[(scenes.size() / 2 + tried) % scenes.size()];
     const StopScope deadline(longest - watch.seconds());
     const double before = processor_seconds();
     const record::CaseRecord record = run_case(scene);
-    const double spent = processor_seconds() - before;
     const bool ended = record.outcome != record::Outcome::interrupted;
-    sum += ended ? spent : spent / share_done(scene, record).value_or(far);
+    const std::optional<double> share = ended ? std::optional(1.0) : share_done(scene, record);
+    cost.seconds += (processor_seconds() - before) / share.value_or(1.0);
+    cost.at_least = cost.at_least || !share;
   }
-  return tried == 0 ? 0.0 : sum / static_cast<double>(tried) * static_cast<double>(scenes.size());
+  if (tried > 0) cost.seconds *= static_cast<double>(scenes.size()) / static_cast<double>(tried);
+  return cost;
 }
 
 }  // namespace palpate::run

@@ -41,8 +41,14 @@ void run_programme(const scene::Scene& scene, record::CaseRecord& record);
 [[nodiscard]] std::optional<double> share_done(const scene::Scene& scene,
                                                const record::CaseRecord& record);
 
-// The processor time (s) of all cases after their set-up, from running some of them for up to about
-// three seconds. A case that is not finished then counts by the share of its loading history.
-[[nodiscard]] double expected_seconds(const std::vector<scene::Scene>& scenes);
+struct Cost {
+  double seconds = 0.0;  // of a processor
+  bool at_least = false;
+};
+
+// The cost of all cases after their set-up, from running some of them for up to about `longest`
+// seconds. A case that is not finished then counts by the share of its loading history; one of
+// `solid` shows none before its last mesh is done, and the cost is then at least what was spent.
+[[nodiscard]] Cost expected_cost(const std::vector<scene::Scene>& scenes, double longest = 3.0);
 
 }  // namespace palpate::run

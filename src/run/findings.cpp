@@ -20,6 +20,7 @@
 #include "scene/first_touch.h"
 #include "scene/places.h"
 #include "scene/proportions.h"
+#include "scene/specimen_mesh.h"
 #include "tissue/coupled.h"
 #include "tissue/network.h"
 
@@ -143,18 +144,21 @@ class Findings {
     const geometry::SmoothSurface* const outer_surface = scene_.outer_surface();
     if (outer_surface == nullptr || scenario.uniform() || !touch.known() || !touch.size.allFinite())
       return;
-    // A load spreads by about 45 degrees.
+    // Of a body from a file it is known what lies straight behind the press; a load spreads by
+    // about 45 degrees.
     constexpr double least_under = 0.1;
     const geometry::Surface& body = outer_surface->surface();
     const double level = scenario.tissue.held_from_below() ? scene::base_level(scenario, body)
                                                            : scene::box_of(body.vertices).low.z();
     const scene::BaseArea base =
         scene::base_area(scenario, body, touch.position, touch.position.z() - level);
-    if (base.under_press < least_under)
-      warning("only " + percent_text(base.under_press) +
-              " of the surface behind the press is fixed: the body bends or turns there; see the "
-              "base in `palpate explain`, and set `tissue.base_height` or `tissue.base_side` if it "
-              "is fixed elsewhere");
+    const bool free = !scene::parametric(scenario.tissue.shape) && !std::isfinite(touch.to_base);
+    if (free || base.under_press < least_under)
+      warning((free ? "nothing straight behind the press is fixed"
+                    : "only " + percent_text(base.under_press) +
+                          " of the surface behind the press is fixed") +
+              ": the body bends or turns there; see the base in `palpate explain`, and set "
+              "`tissue.base_height` or `tissue.base_side` if it is fixed elsewhere");
   }
 
   void specimen(const scene::Specimen& specimen) {
@@ -229,6 +233,13 @@ class Findings {
     add("peak_travel_mm", unit::mm.from_si(peak.travel));
     for (const double depth : scene_.scenario.output.force_at) force_at(depth);
     less_deep(peak.mesh_error);
+    if (scene_.scenario.tissue.law.kind == tissue::Viscosity::none &&
+        std::ranges::any_of(scene_.scenario.steps, [](const scenario::Step& step) {
+          return std::holds_alternative<scenario::Hold>(step);
+        }))
+      warning(
+          "the tissue is elastic, so that nothing relaxes or creeps during `hold`; give its table "
+          "`retardation_time`, or `relaxation_time` and `instantaneous_ratio`, if it does");
     add("local_curvature_per_m", 1.0 / peak.tissue_radius);
     add("depth_ratio", peak.indentation / radius);
     add("contact_radius_ratio", peak.contact_radius / radius);

@@ -10,6 +10,7 @@
 #include "base/symmetric_solver.h"
 #include "base/text.h"
 #include "mechanics/pressed_mesh.h"
+#include "meshing/tetgen_body.h"
 #include "scenario/programme.h"
 #include "scene/first_touch.h"
 #include "scene/refining_press.h"
@@ -190,6 +191,8 @@ SizeEffect coarsest_press(scenario::Resolved trial, double way, const std::strin
     auto* mesh = std::get_if<scenario::Tetgen>(&trial.tissue.mesh);
     try {
       return press(trial, way, folder, touch, shapes);
+    } catch (const meshing::Needles&) {
+      throw;
     } catch (const MeshError&) {
       if (mesh == nullptr || mesh->nodes >= most_nodes) throw;
       mesh->nodes *= 2;

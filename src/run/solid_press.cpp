@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "meshing/tetgen.h"
 #include "run/pressure_map.h"
 #include "scene/surface_touch.h"
 
@@ -22,6 +25,9 @@ constexpr double beside_inclusion = 2.6;
 // A wall of less contact radii that nothing holds below is for two meshes: by one, forces were up
 // to 3.4 % high.
 constexpr double thin_wall = 5.0;
+
+// Tries to mesh a body that fail end after this: time decides whether there is a mesh, not which.
+constexpr double longest_search = 60.0;  // s
 
 std::size_t meshes_for(double tolerance) {
   if (tolerance >= solid::error_of_one_mesh) return 1;
@@ -78,10 +84,19 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
 // All meshes have one kind of surface and one size of inclusions, or no force could be extrapolated
 // from theirs.
 void SolidPress::make() {
+  const Stopwatch watch;
+  const auto over = [&] { return watch.seconds() > longest_search; };
   // Again with elements a little smaller where the surface is a file's, as TetGen may fail by bad
   // luck.
   constexpr double finer = 1.07;
   const int most_tries = scene_->solid->surface ? 3 : 1;
+  // Of all meshes, with as many nodes as the cube of their elements.
+  const auto work = [&](std::size_t count) {
+    const auto cubes = [](double sum, double elements) { return sum + std::pow(elements, 3); };
+    const auto upto = asked_.begin() + static_cast<std::ptrdiff_t>(count);
+    return std::accumulate(asked_.begin(), upto, 0.0, cubes) /
+           std::accumulate(asked_.begin(), asked_.end(), 0.0, cubes);
+  };
   do {
     width_ = scene_->finger.centres.size() > 1
                  ? 1.0
@@ -93,13 +108,20 @@ void SolidPress::make() {
     while (presses_.size() < asked_.size()) {
       double& number = per_radius_[presses_.size()];
       try {
-        presses_.push_back(std::make_unique<solid::FingerPress>(order(number)));
+        solid::FingerOrder wanted = order(number);
+        wanted.done = {work(presses_.size()), work(presses_.size() + 1)};
+        presses_.push_back(std::make_unique<solid::FingerPress>(std::move(wanted)));
         tries = 1;
-      } catch (const MeshError&) {
+      } catch (const MeshError& error) {
         number *= finer;
-        if (tries++ < most_tries) continue;
-        if (!simpler()) throw;
-        break;
+        if (!over() && tries++ < most_tries) continue;
+        if (!over() && simpler()) break;
+        if (!scene_->solid->surface || dynamic_cast<const meshing::TetgenError*>(&error) == nullptr)
+          throw;
+        const std::string fault = error.what();
+        throw MeshError("no mesh for the press was found, with the surface as it is or coarser (" +
+                        fault.substr(0, fault.find(';')) +
+                        "); remesh it with even triangles in the program it comes from");
       }
     }
   } while (presses_.size() < asked_.size());

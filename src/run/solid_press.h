@@ -1,6 +1,7 @@
 // A press by the model `solid`: contacts, rows and findings.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "contact/detection.h"
 #include "geometry/box.h"
+#include "scene/places.h"
 
 namespace palpate::scene {
 
@@ -22,8 +23,8 @@ KeyError beside(const Vec3& place, const Vec3& low, const Vec3& high) {
   const Vec3 off = (place - 0.5 * (low + high)).cwiseAbs().cwiseQuotient(high - low);
   return {off.x() >= off.y() ? "finger.x" : "finger.y",
           "the finger passes beside the specimen at x " + quantity_text(place.x(), unit::mm) +
-              ", y " + quantity_text(place.y(), unit::mm) +
-              "; set `finger.x` and `finger.y` to a place above it"};
+              ", y " + quantity_text(place.y(), unit::mm) + ", where it has nothing: its box has " +
+              box_text({low, high}) + "; set `finger.x` and `finger.y` to a place above it"};
 }
 
 FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& place,

@@ -292,9 +292,12 @@ Moment FingerPress::moment_of(const Answer& answer, double force) {
 }
 
 std::optional<Answer> FingerPress::go(double travel) {
+  const double share = std::min(1.0, tissue_.reached / (order_.share * order_.deepest));
+  const double done = order_.done[0] + share * (order_.done[1] - order_.done[0]);
   set_doing({order_.part + std::to_string(press_->body().mesh.nodes.size()) + " nodes, press to " +
-             rounded_text(unit::mm.from_si(travel / order_.share), 3) + " of " +
-             rounded_text(unit::mm.from_si(order_.deepest), 3) + " mm"});
+                 rounded_text(unit::mm.from_si(travel / order_.share), 3) + " of " +
+                 rounded_text(unit::mm.from_si(order_.deepest), 3) + " mm",
+             static_cast<std::size_t>(100.0 * done), 100});
   auto found = press_->go(order_.touch.finger - travel / order_.share * Vec3::UnitZ());
   if (!found) tissue_.end = press_->walls_meet() ? End::closes : End::folds;
   return found;

@@ -38,7 +38,8 @@ struct FingerOrder {
   bool shallower = false;  // the press is a knot of a deeper one
   // The touch with the finger at a place beside it (m); nothing where it passes beside the body.
   std::function<std::optional<Touch>(const Vec3& place)> beside = {};
-  std::string part = {};  // of a longer way, for the progress of the run
+  std::string part = {};                 // of a longer way, for the progress of the run
+  std::array<double, 2> done{0.0, 1.0};  // of all meshes' work, before and after this press
 };
 
 // Of a travel (m) and another quantity, ascending.

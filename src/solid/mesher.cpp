@@ -18,7 +18,7 @@
 namespace palpate::solid {
 namespace {
 
-constexpr double time_limit = 300.0;  // s
+constexpr double time_limit = 60.0;  // s
 constexpr double growth = 0.35;
 
 // Numbers of faces: flat ones, those of a file, the shape's round ones, then spheres, then planes.

@@ -143,7 +143,7 @@ TEST_F(RunMeshes, broken_surfaces_are_refused_and_leave_nothing) {
   refused(off(two, twice), "palpate: surface `leg.off`: has 2 parts");
   write_file(folder_ / "leg.off", sound.substr(0, sound.size() / 2));
   expect_refused(of_surface("leg.off"), 2,
-                 "leg.off:10: a vertex wants three coordinates, got 2; the file may be cut short");
+                 "leg.off:2: the header counts 8 vertices and 6 faces, but 8 lines follow");
   Faces inverted = sides;
   for (auto& f : inverted) std::swap(f[1], f[3]);
   refused(off(corners_given, inverted), "palpate: surface `leg.off`: is inside out");
@@ -296,10 +296,11 @@ TEST_F(RunMeshes, regions_that_are_not_there) {
 }
 
 TEST_F(RunMeshes, a_finger_beside_the_specimen) {
-  expect_refused("[finger]\nx = \"500 mm\"\n" + steps, 2,
-                 "press.toml:2:5: the finger passes beside the specimen at x 500 mm, y 30 mm; set "
-                 "`finger.x` and "
-                 "`finger.y` to a place above it");
+  expect_refused(
+      "[finger]\nx = \"500 mm\"\n" + steps, 2,
+      "press.toml:2:5: the finger passes beside the specimen at x 500 mm, y 30 mm, where "
+      "it has nothing: its box has x 0 to 60, y 0 to 60, z 0 to 30 mm; set "
+      "`finger.x` and `finger.y` to a place above it");
 }
 
 // --- what `hertz` does not know

@@ -51,9 +51,8 @@ TEST_F(RunSurfaces, are_refused_with_the_reason_and_a_remedy) {
               "holds up to 60" +
               mesh);
   refused("x = \"90 mm\"\n", 2,
-          "press.toml:11:5: the finger passes beside the specimen at x 90 mm, y 40 mm; set "
-          "`finger.x` and "
-          "`finger.y` to a place above it");
+          "press.toml:11:5: the finger passes beside the specimen at x 90 mm, y 40 mm, where "
+          "it has nothing: its box has x ");
 }
 
 TEST_F(RunSurfaces, slide_from_under_an_inclined_press_where_the_base_has_no_friction) {

@@ -79,11 +79,29 @@ TEST_F(RunTalk, a_long_press_says_where_it_is) {
   write_file(folder_ / "press.toml",
              "[solver]\nmodel = \"solid\"\ntolerance = 0.005\n[tissue]\nviscosity = "
              "\"none\"\n[finger]\nmaterial = "
-             "\"rigid\"\n[[step]]\nkind = \"indent\"\nto = \"1 mm\"\n[output]\nfigures = false\n");
+             "\"rigid\"\nx = \"25 mm\"\ny = \"27 mm\"\n[[step]]\nkind = \"indent\"\nto = \"1 "
+             "mm\"\n[output]\nfigures = false\n");
   const auto [code, seen] = on_terminal({"run", "press.toml"}, folder_.path(), " nodes, press to ");
   EXPECT_EQ(code, 130);
-  EXPECT_NE(seen.find("[....................] 0/1, press, "), std::string::npos) << seen;
+  EXPECT_NE(seen.find("/100, "), std::string::npos) << seen;  // of all meshes
   EXPECT_NE(seen.find(" nodes, press to "), std::string::npos) << seen;
+}
+
+// A table of one's own without a time constant runs as elastic.
+TEST_F(RunTalk, an_elastic_tissue_is_said_not_to_relax_in_a_hold) {
+  write_file(folder_ / "mine.toml",
+             "[gel]\ndensity = \"1000 kg/m^3\"\nyoung_modulus = \"5 kPa\"\npoisson_ratio = 0.45\n");
+  const auto said = [&](const std::string& material, const std::string& then) {
+    write_file(folder_ / "press.toml", "[tissue]\nmaterial = \"" + material +
+                                           "\"\n[[step]]\nkind = \"indent\"\n[[step]]\nkind = \"" +
+                                           then +
+                                           "\n[output]\ninterval = \"100 ms\"\nfigures = false\n");
+    return run({"--force"}).err.find("nothing relaxes or creeps during `hold`") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(said("mine.toml#gel", "hold\"\ntime = \"1 s\""));
+  EXPECT_FALSE(said("muscle", "hold\"\ntime = \"1 s\""));
+  EXPECT_FALSE(said("mine.toml#gel", "retract\""));
 }
 
 // A person is told the next step of the path, and sees errors in red; a file and `--no-color` see

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "material/tissue_table.h"
+#include "temporary_folder.h"
 
 namespace palpate::material {
 namespace {
@@ -48,6 +49,24 @@ TEST(TissueTable, AnUnknownNameSuggestsTheNearest) {
         "press.toml:5:12: `material` does not know `musle`; did you mean `muscle`? Known here: "
         "finger, skin, muscle, bone, ligament, upper_leg; your own tables are written "
         "`file.toml#name`");
+  }
+}
+
+// A table has none of its own.
+TEST(TissueTable, SaysWhereASourceGoes) {
+  const test::TemporaryFolder folder;
+  test::write_file(folder.path() / "mine.toml",
+                   "[gel]\nsource = \"us\"\ndensity = \"1000 kg/m^3\"\nyoung_modulus = \"5 kPa\"\n"
+                   "poisson_ratio = 0.45\n");
+  try {
+    (void)find("mine.toml#gel", folder.path().string(), {"press.toml", 5, 12});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("mine.toml:2:1: `source` belongs to a value: `young_modulus = { value = "
+                        "\"5 kPa\", source = \"...\" }`"),
+              std::string::npos)
+        << error.what();
   }
 }
 

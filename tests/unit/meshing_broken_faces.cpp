@@ -102,8 +102,8 @@ TEST_F(BrokenSurfaces, faces_of_two_corners) {
             "input: a.obj:6: a face wants three corners or more, got 2; the file may be cut short: "
             "export it again");
   EXPECT_EQ(complaint("a.off", with(good_off, "3 0 1 3", "2 0 1")),
-            "input: a.off:8: a face wants three corners or more, got 2; the file may be cut short: "
-            "export it again");
+            "input: a.off:8: a face wants three corners or more, got 2; mend the line, or the "
+            "counts of the header if this is a vertex");
   EXPECT_EQ(
       complaint("a.ply", with(good_ply, "3 0 1 3", "2 0 1")),
       "input: a.ply:15: a face wants three corners or more, got 2; the file may be cut short: "

@@ -151,11 +151,12 @@ TEST_F(BrokenSurfaces, says_where_it_is_cut_short) {
   EXPECT_EQ(complaint("b.obj", "v 0 0 0\nv 1 0"),
             "input: b.obj:2: a vertex wants three coordinates, got 2; the file may be cut short: "
             "export it again");
-  EXPECT_EQ(complaint("a.off", good_off.substr(0, good_off.size() - 16)),
-            "input: a.off:8: the file ends after 2 of 4 faces; it is cut short: export it again");
   EXPECT_EQ(
-      complaint("b.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n"),
-      "input: b.off:4: the file ends after 2 of 4 vertices; it is cut short: export it again");
+      complaint("a.off", good_off.substr(0, good_off.size() - 16)),
+      "input: a.off:2: the header counts 4 vertices and 4 faces, but 6 lines follow; mend the "
+      "counts, or export the file again if it is cut short");
+  EXPECT_EQ(complaint("b.off", "OFF\n"),
+            "input: b.off:1: the file ends after `OFF`; it is cut short: export it again");
   EXPECT_EQ(complaint("a.ply", good_ply.substr(0, good_ply.size() - 9)),
             "input: a.ply:16: the file ends after 3 of 4 lines of element `face`; it is cut short: "
             "export it again");
@@ -186,15 +187,17 @@ TEST_F(BrokenSurfaces, counts_that_lie) {
     EXPECT_NE(
         complaint("a.stl", binary_stl(count)).find(std::to_string(count) + " facets, not 284"),
         std::string::npos);
-  EXPECT_EQ(complaint("a.off", with(good_off, "4 4 6", "4 3 6")),
-            "input: a.off:10: the header counts 4 vertices and 3 faces, but another line follows; "
-            "mend the counts");
-  EXPECT_EQ(complaint("b.off", with(good_off, "4 4 6", "4 5 6")),
-            "input: b.off:10: the file ends after 4 of 5 faces; it is cut short: export it again");
-  EXPECT_EQ(
-      complaint("c.off", with(good_off, "4 4 6", "2000000000 4 6")),
-      "input: c.off:10: the file ends after 8 of 2000000000 vertices; it is cut short: export "
-      "it again");
+  for (const std::string counts : {"4 3", "4 5", "5 4", "3 4", "2000000000 4"}) {
+    std::string told = counts;
+    told.replace(told.find(' '), 1, " vertices and ");
+    EXPECT_EQ(complaint("a.off", with(good_off, "4 4 6", counts + " 6")),
+              "input: a.off:2: the header counts " + told +
+                  " faces, but 8 lines follow; mend the counts, or export the file again if it is "
+                  "cut short");
+  }
+  EXPECT_EQ(complaint("b.off", with(good_off, "4 4 6", "3 5 6")),
+            "input: b.off:6: a face wants three corners or more, got 0; mend the line, or the "
+            "counts of the header if this is a vertex");
   EXPECT_EQ(complaint("d.off", with(good_off, "4 4 6", "-4 4 6")),
             "input: d.off:2: the number of vertices is missing or negative; after `OFF` write the "
             "numbers of vertices, faces and edges");

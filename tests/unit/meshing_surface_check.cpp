@@ -110,7 +110,8 @@ TEST(SurfaceCheck, asks_about_the_unit) {
             "surface `paw`: is 6e-08 m long in `m`, but wants 1e-6 m to 10 m; check its unit");
   EXPECT_EQ(size(1e300, "m"),
             "surface `paw`: is 1e+300 m long in `m`, but wants 1e-6 m to 10 m; check its unit");
-  EXPECT_EQ(other_units(0.0115, "cm"), "in `m` it would be 1.15 m long");
+  EXPECT_EQ(other_units(0.0015, "cm"), "in `m` it would be 0.15 m long");
+  EXPECT_EQ(other_units(0.0115, "cm"), "");  // a usual size
   EXPECT_EQ(
       test::refusal<MeshError>([] { return whole_surface(corner(60.0), "paw", {}); }).substr(0, 32),
       "surface `paw`: is 60 m long in `");

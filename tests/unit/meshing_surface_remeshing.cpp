@@ -283,6 +283,24 @@ TEST(Needles, OfASurfaceWithASharpEdgeAreRemeshed) {
   EXPECT_LE(even->distance, 4.0 * remeshing_limit(needles, 8e-3));
 }
 
+// TetGen took minutes over those of a housing, again with every number of nodes.
+TEST(Needles, ThatStayAndHaveNoMeshAreRefusedAtOnce) {
+  const Surface needles = wedge(3.0);
+  ASSERT_GT(10 * count_needles(needles), needles.triangles.size());
+  const auto meshed = [](const Surface& surface) {
+    constexpr double no_time = 1e-9;  // s
+    (void)tetgen_file(surface, {}, {.nodes = 200}, no_time);
+  };
+  EXPECT_THROW(meshed(needles), palpate::meshing::Needles);
+  try {
+    meshed(wedge(30.0));
+    FAIL() << "meshed";
+  } catch (const palpate::meshing::Needles&) {
+    FAIL() << "it has none that stay";
+  } catch (const MeshError&) {
+  }
+}
+
 // Split by TetGen, those of a sensor's housing had become 215 000 nodes.
 TEST(Needles, AreNotSplitForAMeshOfTheirSize) {
   const Surface needles = strips(128, 0.030, 0.080);
