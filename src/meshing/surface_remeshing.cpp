@@ -267,12 +267,12 @@ double remeshing_limit(const Surface& surface, double spacing) {
   return std::min(0.125 * spacing, 0.005 * geometry::box_of(surface.vertices).diagonal());
 }
 
-std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double looser) {
+std::optional<Remeshed> remeshed(const Surface& surface, double spacing) {
   const std::size_t given = surface.triangles.size();
   const bool sharp = has_sharp_edge(surface);
   const bool uneven = count_needles(surface) > 0 && (!sharp || (given >= few && given < large));
   if (sharp && !uneven && given < large) return std::nullopt;
-  const double limit = looser * remeshing_limit(surface, spacing);
+  const double limit = remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
   const geometry::BoxTree original(surface);
   Attempt attempt(surface, original, spacing);
@@ -281,8 +281,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   const auto found_in = [&](int tries, bool by_place, std::size_t most) -> std::optional<Remeshed> {
     for (int i = 0; i < tries && !over; ++i) {
       std::vector<Vec3> wrong;
-      // The solid's meshes, whose forces may hang on a detail, all begin from the given surface.
-      const bool again = i > 0 && looser <= 1.0;
+      const bool again = i > 0;
       std::optional<Surface> made = uneven && !by_place ? attempt.even()
                                     : by_place && i == 0 && first
                                         ? std::exchange(first, std::nullopt)
@@ -299,8 +298,8 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
         distance =
             std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, places, wrong));
         if (by_place) add_crossings(*made, wrong);
-        if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
-            std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
+        if (wrong.empty() && (by_place || count_needles(*made) == 0) &&
+            std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= most_volume &&
             closed(*made))
           return Remeshed{std::move(*made), distance};
         // The next try would take longer than all before.
@@ -321,10 +320,8 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, double 
   if (over) return std::nullopt;
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
-  if (looser <= 1.0) {
-    attempt.restore(spacing);
-    if (auto found = found_in(tries_by_place, true, given)) return found;
-  }
+  attempt.restore(spacing);
+  if (auto found = found_in(tries_by_place, true, given)) return found;
   over = false;
   attempt.restore(spacing);
   for (int i = 0; i < even_tries; ++i) attempt.shorten();

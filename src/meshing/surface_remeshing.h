@@ -30,11 +30,8 @@ struct Remeshed {
 // than twice as many (or 2000). Where an edge of the body is sharper than five degrees, only 20 000
 // triangles and more, whose edges are shorter around details alone and may stay needles, become
 // fewer, and 2000 with needles.
-// `surface` has passed check_closed(). The same arguments give the same bits. For faces that are
-// rounded and curved afterwards distance and volume may differ `looser` times as much; above 1,
-// needles may stay.
-[[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing,
-                                               double looser = 1.0);
+// `surface` has passed check_closed(). The same arguments give the same bits.
+[[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing);
 
 // An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of
 // the requested spacing on a round body with a radius of more than its length is nearer than that,

@@ -121,7 +121,7 @@ class Mesher {
       for (const auto& triangle : faces_.triangles) numbers_.push_back(number_of(triangle));
     } else {
       const geometry::Surface& given = order_.surface->surface();
-      auto coarse = order_.coarser ? meshing::remeshed(given, spacing, 4.0) : std::nullopt;
+      auto coarse = order_.coarser ? meshing::remeshed(given, spacing) : std::nullopt;
       body_.parts.push_back({coarse ? coarse->surface : given, 0});
       faces_ = body_.parts.front().surface;
       numbers_.assign(faces_.triangles.size(), of_file);
