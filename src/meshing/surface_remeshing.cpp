@@ -29,6 +29,10 @@ constexpr double shorter = 0.75;                                   // the next s
 constexpr double least_growth = 1.5;                               // of triangles by that
 constexpr double shorter_there = 0.5;                              // the same of some vertices
 
+// If there is one that serves, tries end after so many, or where triangles are more than a quarter.
+constexpr int enough_tries = 8;
+constexpr std::size_t few_of = 4;
+
 // Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
 // the volume that it would take at the spacing itself.
 constexpr double even_part = 0.4;
@@ -66,17 +70,26 @@ double longest_edge(const Surface& surface, const std::array<int, 3>& triangle) 
   return longest;
 }
 
-// The largest distance, m, of the vertices of `from`, and of its triangles' centres and middles of
-// edges, from the surface in the tree. Adds those that are farther than `limit` to `far`, up to
-// `count` of them; then it looks no further.
-double farthest(const Surface& from, const geometry::BoxTree& to, double limit, std::size_t count,
-                std::vector<Vec3>& far) {
-  double most = 0.0;
+struct Distance {
+  double largest = 0.0;  // m
+  double near = 0.0;     // the largest around the places, over what is allowed there
+};
+
+// Of the vertices of `from`, and of its triangles' centres and middles of edges, from the surface
+// in the tree. Adds those that are farther than allowed to `far`, up to `count` of them; then it
+// looks no further.
+void add_distance(const Surface& from, const geometry::BoxTree& to, double limit,
+                  const Nearer& nearer, std::size_t count, Distance& found,
+                  std::vector<Vec3>& far) {
+  const double least = std::min(limit, nearer.distance);
   const auto look = [&](const Vec3& point) {
     if (far.size() == count) return;
-    const double squared = to.nearest(point).distance_squared;
-    if (squared > limit * limit) far.push_back(point);
-    most = std::max(most, squared);
+    const double distance = std::sqrt(to.nearest(point).distance_squared);
+    const bool near = std::ranges::any_of(
+        nearer.places, [&](const Vec3& place) { return (point - place).norm() < nearer.radius; });
+    if (near) found.near = std::max(found.near, distance / least);
+    found.largest = std::max(found.largest, distance);
+    if (distance > (near ? least : limit)) far.push_back(point);
   };
   for (const Vec3& vertex : from.vertices) look(vertex);
   for (const auto& [a, b, c] : from.triangles) {
@@ -88,7 +101,6 @@ double farthest(const Surface& from, const geometry::BoxTree& to, double limit, 
     if (b < c) look(0.5 * (q + r));
     if (c < a) look(0.5 * (r + p));
   }
-  return std::sqrt(most);
 }
 
 // Flat sides of the original stay flat to the last bit: the base of a specimen is known by that.
@@ -122,35 +134,19 @@ class Attempt {
   [[nodiscard]] double longest() const { return std::ranges::max(spacing_); }
 
   // Even triangles that are collapsed, all to the first spacing. A few that cross are replaced.
-  [[nodiscard]] std::optional<Surface> even() const {
+  [[nodiscard]] std::optional<Surface> even() {
+    if (!begin()) return std::nullopt;
     return in_child([&] {
       const double edge = spacing_.front();
-      const Surface even = cgal_library::even(surface_, even_part * edge, crease_degrees);
+      const Surface even = cgal_library::even(begun_, even_part * edge, crease_degrees);
       Surface found = cgal_library::collapsed(even, std::vector(even.vertices.size(), edge));
       return cgal_library::self_intersections(found).empty() ? found
                                                              : cgal_library::uncrossed(found);
     });
   }
 
-  [[nodiscard]] std::optional<Surface> collapsed() const { return collapsed(surface_, spacing_); }
-
-  // Edges of a large surface are collapsed once to a finer one, from which all tries begin whose
-  // edges are twice as long or more.
-  [[nodiscard]] std::optional<Surface> collapsed_again() {
-    if (surface_.triangles.size() < large) return collapsed();
-    constexpr double finer = 1.0 / 8.0;
-    bool begins = !begun_.triangles.empty();
-    for (std::size_t v = 0; begins && v < spacing_.size(); ++v)
-      begins = spacing_[v] >= 2.0 * begun_with_[v];
-    if (!begins) {
-      begun_with_ = spacing_;
-      for (double& edge : begun_with_) edge *= finer;
-      auto found = collapsed(surface_, begun_with_);
-      if (!found) return std::nullopt;
-      begun_ = std::move(*found);
-      nearest_.clear();
-      for (const Vec3& vertex : begun_.vertices) nearest_.push_back(nearest_vertex(vertex));
-    }
+  [[nodiscard]] std::optional<Surface> collapsed() {
+    if (!begin()) return std::nullopt;
     std::vector<double> spacing;
     for (const std::size_t vertex : nearest_) spacing.push_back(spacing_[vertex]);
     return collapsed(begun_, spacing);
@@ -179,6 +175,29 @@ class Attempt {
   }
 
  private:
+  // Edges of a large surface are collapsed once to a finer one, from which all tries begin whose
+  // edges are twice as long or more; a smaller one begins as it is.
+  [[nodiscard]] bool begin() {
+    constexpr double finer = 1.0 / 8.0;
+    bool begun = !begun_.triangles.empty();
+    for (std::size_t v = 0; begun && v < begun_with_.size(); ++v)
+      begun = spacing_[v] >= 2.0 * begun_with_[v];
+    if (begun) return true;
+    nearest_.clear();
+    if (surface_.triangles.size() < large) {
+      begun_ = surface_;
+      for (std::size_t v = 0; v < surface_.vertices.size(); ++v) nearest_.push_back(v);
+      return true;
+    }
+    begun_with_ = spacing_;
+    for (double& edge : begun_with_) edge *= finer;
+    auto found = collapsed(surface_, begun_with_);
+    if (!found) return false;
+    begun_ = std::move(*found);
+    for (const Vec3& vertex : begun_.vertices) nearest_.push_back(nearest_vertex(vertex));
+    return true;
+  }
+
   template <class Make>
   [[nodiscard]] static std::optional<Surface> in_child(const Make& make) {
     const ChildResult result = run_in_child([&] { return packed(make()); }, remeshing_limits);
@@ -200,8 +219,8 @@ class Attempt {
   const Surface& surface_;
   const geometry::BoxTree& tree_;
   std::vector<double> spacing_;       // m, per vertex
-  Surface begun_;                     // of a large surface
-  std::vector<double> begun_with_;    // m, per vertex of `surface_`
+  Surface begun_;                     // that tries begin with
+  std::vector<double> begun_with_;    // m, per vertex of `surface_`, if that is large
   std::vector<std::size_t> nearest_;  // per vertex of `begun_`
 };
 
@@ -267,41 +286,52 @@ double remeshing_limit(const Surface& surface, double spacing) {
   return std::min(0.125 * spacing, 0.005 * geometry::box_of(surface.vertices).diagonal());
 }
 
-std::optional<Remeshed> remeshed(const Surface& surface, double spacing) {
+std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const Nearer& nearer) {
   const std::size_t given = surface.triangles.size();
   const bool sharp = has_sharp_edge(surface);
   const bool uneven = count_needles(surface) > 0 && (!sharp || (given >= few && given < large));
   if (sharp && !uneven && given < large) return std::nullopt;
-  const double limit = remeshing_limit(surface, spacing);
+  const double looser = uneven && sharp ? nearer.looser : 1.0;
+  const Nearer around = looser > 1.0 ? Nearer{} : nearer;
+  const double limit = looser * remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
   const geometry::BoxTree original(surface);
   Attempt attempt(surface, original, spacing);
+  std::optional<Remeshed> fair;  // the nearest so far that is not near enough
+  double fair_near = HUGE_VAL;
   std::optional<Surface> first;  // edges of the spacing that was asked for
   bool over = false;             // shorter spacings would have too many triangles
   const auto found_in = [&](int tries, bool by_place, std::size_t most) -> std::optional<Remeshed> {
     for (int i = 0; i < tries && !over; ++i) {
       std::vector<Vec3> wrong;
-      const bool again = i > 0;
       std::optional<Surface> made = uneven && !by_place ? attempt.even()
                                     : by_place && i == 0 && first
                                         ? std::exchange(first, std::nullopt)
-                                    : again ? attempt.collapsed_again()
-                                            : attempt.collapsed();
+                                        : attempt.collapsed();
       if (made && !made->triangles.empty()) {
         if (i == 0 && !by_place && !uneven) first = made;
         flatten_sides(surface, attempt.longest(), *made);
         const std::size_t count = made->triangles.size();
         over = count >= most;
-        if (over) break;
+        if (over || (fair && (i >= enough_tries || few_of * count > given))) break;
+        Distance distance;
         const std::size_t places = by_place ? SIZE_MAX : 1;
-        double distance = farthest(*made, original, limit, places, wrong);
-        distance =
-            std::max(distance, farthest(surface, geometry::BoxTree(*made), limit, places, wrong));
+        add_distance(*made, original, limit, around, places, distance, wrong);
+        add_distance(surface, geometry::BoxTree(*made), limit, around, places, distance, wrong);
+        const std::size_t far = wrong.size();
         if (by_place) add_crossings(*made, wrong);
-        if (wrong.empty() && (by_place || count_needles(*made) == 0) &&
-            std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= most_volume &&
-            closed(*made))
-          return Remeshed{std::move(*made), distance};
+        // A large surface as it is would have no end.
+        const bool serves = by_place && distance.largest <= nearer.looser * limit &&
+                            (distance.near <= 1.0 || given >= large) && distance.near <= fair_near;
+        if (wrong.size() == far && (far == 0 || serves) &&
+            (by_place || looser > 1.0 || count_needles(*made) == 0) &&
+            std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
+            closed(*made)) {
+          Remeshed good{std::move(*made), distance.largest};
+          if (far == 0) return good;
+          fair = std::move(good);
+          fair_near = distance.near;
+        }
         // The next try would take longer than all before.
         over = !by_place && least_growth * static_cast<double>(count) >= static_cast<double>(most);
       }
@@ -314,14 +344,20 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing) {
   };
   constexpr int even_tries = 3;
   constexpr int tries_by_place = 16;
-  if (sharp && !uneven) return found_in(tries_by_place, true, given);
+  if (sharp && !uneven) {
+    auto found = found_in(tries_by_place, true, given);
+    return found ? std::move(found) : std::move(fair);
+  }
   const std::size_t most = uneven ? std::max(2 * given, few) : given;
   if (auto found = found_in(even_tries, false, most)) return found;
   if (over) return std::nullopt;
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
-  attempt.restore(spacing);
-  if (auto found = found_in(tries_by_place, true, given)) return found;
+  if (looser <= 1.0) {
+    attempt.restore(spacing);
+    if (auto found = found_in(tries_by_place, true, given)) return found;
+    if (fair) return fair;
+  }
   over = false;
   attempt.restore(spacing);
   for (int i = 0; i < even_tries; ++i) attempt.shorten();

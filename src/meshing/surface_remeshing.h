@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/surface.h"
 
@@ -23,6 +24,17 @@ struct Remeshed {
   double distance = 0.0;  // m, the largest between the two surfaces, in both directions
 };
 
+// Around these places the surfaces have at most this distance from each other, m. A surface that is
+// up to `looser` times as far as others elsewhere serves if eight tries find none that is nearer
+// and has a quarter of the triangles; of 20 000 triangles and more also one that is farther around
+// the places. Of needles with sharp edges the first that is so near, anywhere, is taken.
+struct Nearer {
+  std::vector<Vec3> places = {};  // m
+  double radius = 0.0;            // m
+  double distance = 0.0;
+  double looser = 1.0;
+};
+
 // A surface with edges of about `spacing` (m) for the same body. It has passed check_closed(), has
 // the same volume within 0.5 %, keeps creases and has no needles, and its largest distance from
 // `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
@@ -31,7 +43,8 @@ struct Remeshed {
 // triangles and more, whose edges are shorter around details alone and may stay needles, become
 // fewer, and 2000 with needles.
 // `surface` has passed check_closed(). The same arguments give the same bits.
-[[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing);
+[[nodiscard]] std::optional<Remeshed> remeshed(const geometry::Surface& surface, double spacing,
+                                               const Nearer& nearer = {});
 
 // An eighth of the spacing, but at most 0.5 % of the diagonal of the bounding box, m. A chord of
 // the requested spacing on a round body with a radius of more than its length is nearer than that,

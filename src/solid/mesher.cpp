@@ -12,7 +12,6 @@
 #include "geometry/half_edges.h"
 #include "meshing/bisection.h"
 #include "meshing/cgal_library.h"
-#include "meshing/surface_remeshing.h"
 #include "meshing/tetgen.h"
 
 namespace palpate::solid {
@@ -121,7 +120,8 @@ class Mesher {
       for (const auto& triangle : faces_.triangles) numbers_.push_back(number_of(triangle));
     } else {
       const geometry::Surface& given = order_.surface->surface();
-      auto coarse = order_.coarser ? meshing::remeshed(given, spacing) : std::nullopt;
+      auto coarse =
+          order_.coarser ? meshing::remeshed(given, spacing, order_.nearer) : std::nullopt;
       body_.parts.push_back({coarse ? coarse->surface : given, 0});
       faces_ = body_.parts.front().surface;
       numbers_.assign(faces_.triangles.size(), of_file);

@@ -9,6 +9,7 @@
 #include "geometry/curved_edges.h"
 #include "geometry/shapes.h"
 #include "geometry/smooth_surface.h"
+#include "meshing/surface_remeshing.h"
 #include "solid/elements.h"
 #include "solid/surface_net.h"
 
@@ -45,6 +46,7 @@ struct MeshOrder {
   std::optional<geometry::Shape> shape;
   const geometry::SmoothSurface* surface = nullptr;
   bool coarser = true;                      // whether that may get larger triangles far away
+  meshing::Nearer nearer = {};              // where it may do so least
   bool movable = true;                      // whether its edges may turn and its vertices move
   const geometry::TetMesh* mesh = nullptr;  // with its regions; is only refined
   const geometry::EdgeMiddles* middles = nullptr;  // of the mesh, if it is curved

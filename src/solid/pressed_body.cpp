@@ -146,11 +146,15 @@ void support(const BodyOrder& order, std::span<const Plane> mirrors, const Box& 
 }  // namespace
 
 Body make_body(const BodyOrder& order) {
+  constexpr double looser = 4.0;
+  constexpr double of_travel = 0.02;  // between the surface of the file and that of the mesh
   const Box extent = extent_of(order);
   const std::vector<Plane> mirrors = mirrors_of(order, extent);
   MeshOrder wanted{.shape = order.shape,
                    .surface = order.surface,
                    .coarser = order.coarser,
+                   .nearer = {order.touched, 1.25 * std::sqrt(order.radius * order.travel),
+                              of_travel * order.travel, looser},
                    .movable = order.movable,
                    .mesh = order.mesh,
                    .middles = order.middles,

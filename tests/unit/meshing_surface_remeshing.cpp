@@ -235,6 +235,46 @@ TEST(CoarseSurface, KeepsAFewNeedles) {
   EXPECT_TRUE(!made || made->surface.triangles.size() < 2000u);
 }
 
+// A finger meets the surface of the file, and not one that is a tenth of its travel lower.
+TEST(CoarseSurface, IsNearerAroundPlaces) {
+  const Surface fine = sampled(geometry::Ellipsoid{{0.06, 0.05, 0.04}}, 1.5e-3);
+  const Vec3 top(0.03, 0.025, 0.04);
+  constexpr double radius = 6e-3;
+  const auto distance = [&](const Surface& coarse) {
+    const geometry::BoxTree tree(coarse);
+    double most = 0.0;
+    for (const Vec3& vertex : fine.vertices)
+      if ((vertex - top).norm() < radius)
+        most = std::max(most, std::sqrt(tree.nearest(vertex).distance_squared));
+    return most;
+  };
+  const auto everywhere = remeshed(fine, 15e-3);
+  ASSERT_TRUE(everywhere.has_value());
+  EXPECT_GT(distance(everywhere->surface), 0.1e-3);
+  const auto nearer = remeshed(fine, 15e-3, {{top}, radius, 0.04e-3});
+  ASSERT_TRUE(nearer.has_value());
+  EXPECT_LE(distance(nearer->surface), 0.04e-3);
+  EXPECT_LT(nearer->surface.triangles.size(), fine.triangles.size() / 5);
+}
+
+// The noise of this scan is larger than the limit, so that a surface as near as that would be the
+// given one.
+TEST(CoarseSurface, IsOneThatServesWhereNoneIsNear) {
+  Surface rough = sampled(geometry::Ellipsoid{{0.06, 0.05, 0.04}}, 0.8e-3);
+  ASSERT_GT(rough.triangles.size(), 20000u);
+  const Vec3 middle(0.03, 0.025, 0.02);
+  for (std::size_t v = 0; v < rough.vertices.size(); ++v)
+    rough.vertices[v] += 0.7e-3 * std::sin(1e3 * static_cast<double>(v * v % 1013)) *
+                         (rough.vertices[v] - middle).normalized();
+  const double limit = remeshing_limit(rough, 15e-3);
+  const auto coarse = remeshed(rough, 15e-3, {.looser = 4.0});
+  ASSERT_TRUE(coarse.has_value());
+  check_closed(coarse->surface, "coarse");
+  EXPECT_LT(coarse->surface.triangles.size(), rough.triangles.size() / 4);
+  EXPECT_GT(coarse->distance, limit);
+  EXPECT_LE(coarse->distance, 4.0 * limit);
+}
+
 TEST(CoarseSurface, IsNotMadeFiner) {
   EXPECT_FALSE(remeshed(sampled(geometry::Cuboid{}, 10e-3), 5e-3).has_value());
 }
@@ -274,7 +314,7 @@ TEST(Needles, OfASurfaceWithASharpEdgeAreRemeshed) {
   Surface needles = strips(count, 0.015, 0.080);
   for (const int v : {0, count}) needles.vertices[as_index(v)].x() += 1.7e-3;  // a narrow fin
   check_closed(needles, "fin");
-  const auto even = remeshed(needles, 8e-3);
+  const auto even = remeshed(needles, 8e-3, {.looser = 4.0});
   ASSERT_TRUE(even.has_value());
   check_closed(even->surface, "even");
   EXPECT_LT(even->surface.triangles.size(), 1000u);
