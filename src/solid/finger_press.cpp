@@ -572,7 +572,13 @@ std::optional<Moment> FingerPress::on_curve(double travel) {
     reason_ = end_text();
     return std::nullopt;
   }
-  if (tissue_.points.empty()) return Moment{};
+  if (tissue_.points.empty()) {
+    reason_ = "the finger meets nothing of the mesh up to a displacement of " +
+              rounded_text(unit::mm.from_si(found_to()), 3) +
+              " mm: the body is narrower there than its elements; press it at another place, or "
+              "give its surface finer triangles there";
+    return std::nullopt;
+  }
   const auto nearest = std::find_if(tissue_.points.begin(), tissue_.points.end(),
                                     [&](const Point& point) { return point.travel >= own; });
   const Point& near = nearest == tissue_.points.end() ? tissue_.points.back() : *nearest;

@@ -7,6 +7,7 @@
 #include "revolved_bodies.h"
 #include "run/family.h"
 #include "run_text.h"
+#include "solid/finger_press.h"
 #include "temporary_folder.h"
 
 namespace palpate {
@@ -74,8 +75,8 @@ TEST(ByDefault, BodiesOnTheirWholeUndersideAreNoHalfSpaces) {
         "pressure_maps = false\n[[step]]\nkind = \"indent\"\nto = \"" +
         number_text(press.travel) + " mm\"\nrate = \"" + number_text(press.travel) + " mm/s\"\n");
     const double force = 1e3 * std::get<double>(test::finding(record, "peak_force_N"));
-    EXPECT_GT(force, press.low * (1.0 - 0.02));
-    EXPECT_LT(force, press.high * (1.0 + 0.02));
+    EXPECT_GT(force, press.low * (1.0 - solid::error_of_one_mesh));
+    EXPECT_LT(force, press.high * (1.0 + solid::error_of_one_mesh));
   }
 }
 

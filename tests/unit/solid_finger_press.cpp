@@ -72,6 +72,17 @@ TEST(FingerPress, ASmallContactIsHertzs) {
   }
 }
 
+// A fin that the mesh does not have: 0 N had been stated with an error of 0 %.
+TEST(FingerPress, OfNothingIsNoForce) {
+  FingerOrder order = plain();
+  order.touch.finger += 2e-3 * Vec3::UnitZ();
+  FingerPress press(order);
+  EXPECT_FALSE(press.at_travel(0.83e-3));
+  EXPECT_NE(press.reason().find("meets nothing of the mesh up to a displacement of 0.83 mm"),
+            std::string::npos)
+      << press.reason();
+}
+
 TEST(FingerPress, IsOneCurveWhateverIsAskedFirst) {
   FingerPress up(plain());
   FingerPress down(plain());
