@@ -44,8 +44,14 @@ FirstTouch lowered_onto(const geometry::SmoothSurface& surface, const Vec3& plac
       centre.z() = z + centres[i].z();
       detector.find(centre, radius, {}, feet);
       for (const auto& closest_point : feet) {
-        if (radius - closest_point.height <= deepest) continue;
-        deepest = radius - closest_point.height;
+        // On a ridge of facets the normal at the nearest place may not be the way to it.
+        constexpr double aslant = 1.001;
+        const double away = (centre - closest_point.position).norm();
+        const double height = closest_point.height > 0.0 && away > aslant * closest_point.height
+                                  ? away
+                                  : closest_point.height;
+        if (radius - height <= deepest) continue;
+        deepest = radius - height;
         touch.sphere = static_cast<int>(i);
         touch.at = closest_point.at;
         touch.on_crease = closest_point.on_crease;
