@@ -14,6 +14,8 @@ namespace {
 
 using geometry::Box;
 
+constexpr double around = 1.25;  // the touched places, of the contact's radius: equal elements
+
 Box extent_of(const BodyOrder& order) {
   if (order.shape) return {Vec3::Zero(), geometry::extent(*order.shape)};
   return geometry::box_of(order.surface != nullptr ? order.surface->surface().vertices
@@ -33,7 +35,7 @@ Sizes sizes_for(const BodyOrder& order, const Box& extent) {
   sizes.calm = 2.5 * height;  // a thin body is at rest beyond
   double highest = -HUGE_VAL;
   for (const Vec3& at : order.touched) {
-    sizes.spots.push_back({at, 1.25 * a, size});
+    sizes.spots.push_back({at, around * a, size});
     highest = std::max(highest, at.z());
   }
   for (const Inclusion& one : order.inclusions) {
@@ -146,14 +148,16 @@ void support(const BodyOrder& order, std::span<const Plane> mirrors, const Box& 
 }  // namespace
 
 Body make_body(const BodyOrder& order) {
+  // Between the surface of a file and a coarser one: under the finger, of its travel, and
+  // elsewhere, of what springs have, where none is nearer.                             decision 434
+  constexpr double of_travel = 0.02;
   constexpr double looser = 4.0;
-  constexpr double of_travel = 0.02;  // between the surface of the file and that of the mesh
   const Box extent = extent_of(order);
   const std::vector<Plane> mirrors = mirrors_of(order, extent);
   MeshOrder wanted{.shape = order.shape,
                    .surface = order.surface,
                    .coarser = order.coarser,
-                   .nearer = {order.touched, 1.25 * std::sqrt(order.radius * order.travel),
+                   .nearer = {order.touched, around * std::sqrt(order.radius * order.travel),
                               of_travel * order.travel, looser},
                    .movable = order.movable,
                    .mesh = order.mesh,
@@ -181,7 +185,7 @@ Body make_ball(double radius, double depth, double travel, const tissue::Isotrop
   MeshOrder wanted{
       .shape = geometry::Ellipsoid{Vec3::Constant(2.0 * radius)},
       .mirrors = {{0, radius}, {1, radius}, {2, radius}},
-      .sizes = {{{centre + radius * Vec3::UnitZ(), 1.25 * a, a / per_radius}},
+      .sizes = {{{centre + radius * Vec3::UnitZ(), around * a, a / per_radius}},
                 std::max(a / per_radius, std::min(radius / 1.6, 12.0 * a / per_radius))}};
   Body body;
   body.mesh = mesh_for(wanted);
