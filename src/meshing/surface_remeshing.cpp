@@ -29,9 +29,8 @@ constexpr double shorter = 0.75;                                   // the next s
 constexpr double least_growth = 1.5;                               // of triangles by that
 constexpr double shorter_there = 0.5;                              // the same of some vertices
 
-// If there is one that serves, tries end after so many, or where triangles are more than a quarter.
-constexpr int enough_tries = 8;
-constexpr std::size_t few_of = 4;
+// Where a farther surface serves, a nearer one has at most half of the triangles.
+constexpr std::size_t few_of = 2;
 
 // Even triangles are inscribed in round surfaces; at this part of the spacing that takes a sixth of
 // the volume that it would take at the spacing itself.
@@ -70,26 +69,19 @@ double longest_edge(const Surface& surface, const std::array<int, 3>& triangle) 
   return longest;
 }
 
-struct Distance {
-  double largest = 0.0;  // m
-  double near = 0.0;     // the largest around the places, over what is allowed there
-};
-
-// Of the vertices of `from`, and of its triangles' centres and middles of edges, from the surface
-// in the tree. Adds those that are farther than allowed to `far`, up to `count` of them; then it
-// looks no further.
-void add_distance(const Surface& from, const geometry::BoxTree& to, double limit,
-                  const Nearer& nearer, std::size_t count, Distance& found,
-                  std::vector<Vec3>& far) {
-  const double least = std::min(limit, nearer.distance);
+// The largest of the vertices of `from`, and of its triangles' centres and middles of edges, from
+// the surface in the tree, m. Adds those that are farther than allowed to `far`, up to `count` of
+// them; then it looks no further.
+double add_distance(const Surface& from, const geometry::BoxTree& to, double limit,
+                    const Nearer& nearer, std::size_t count, std::vector<Vec3>& far) {
+  double largest = 0.0;
   const auto look = [&](const Vec3& point) {
     if (far.size() == count) return;
     const double distance = std::sqrt(to.nearest(point).distance_squared);
+    largest = std::max(largest, distance);
     const bool near = std::ranges::any_of(
         nearer.places, [&](const Vec3& place) { return (point - place).norm() < nearer.radius; });
-    if (near) found.near = std::max(found.near, distance / least);
-    found.largest = std::max(found.largest, distance);
-    if (distance > (near ? least : limit)) far.push_back(point);
+    if (distance > (near ? std::min(limit, nearer.distance) : limit)) far.push_back(point);
   };
   for (const Vec3& vertex : from.vertices) look(vertex);
   for (const auto& [a, b, c] : from.triangles) {
@@ -101,6 +93,7 @@ void add_distance(const Surface& from, const geometry::BoxTree& to, double limit
     if (b < c) look(0.5 * (q + r));
     if (c < a) look(0.5 * (r + p));
   }
+  return largest;
 }
 
 // Flat sides of the original stay flat to the last bit: the base of a specimen is known by that.
@@ -152,6 +145,11 @@ class Attempt {
     return collapsed(begun_, spacing);
   }
 
+  // Replaces the few triangles of a try that cross.
+  [[nodiscard]] static std::optional<Surface> uncrossed(const Surface& surface) {
+    return in_child([&] { return cgal_library::uncrossed(surface); });
+  }
+
   void restore(double spacing) { std::ranges::fill(spacing_, spacing); }
 
   // Takes shorter edges up to one edge from these places, or from others as near to them.
@@ -201,7 +199,10 @@ class Attempt {
   template <class Make>
   [[nodiscard]] static std::optional<Surface> in_child(const Make& make) {
     const ChildResult result = run_in_child([&] { return packed(make()); }, remeshing_limits);
-    return result.good() ? std::optional(unpacked_surface(result.output)) : std::nullopt;
+    if (!result.good()) return std::nullopt;
+    Surface made = unpacked_surface(result.output);
+    if (made.triangles.empty()) return std::nullopt;
+    return made;
   }
 
   [[nodiscard]] static std::optional<Surface> collapsed(const Surface& from,
@@ -293,45 +294,44 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
   if (sharp && !uneven && given < large) return std::nullopt;
   const double looser = uneven && sharp ? nearer.looser : 1.0;
   const Nearer around = looser > 1.0 ? Nearer{} : nearer;
-  const double limit = looser * remeshing_limit(surface, spacing);
+  const double limit = remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
   const geometry::BoxTree original(surface);
   Attempt attempt(surface, original, spacing);
-  std::optional<Remeshed> fair;  // the nearest so far that is not near enough
-  double fair_near = HUGE_VAL;
   std::optional<Surface> first;  // edges of the spacing that was asked for
   bool over = false;             // shorter spacings would have too many triangles
-  const auto found_in = [&](int tries, bool by_place, std::size_t most) -> std::optional<Remeshed> {
+  const auto found_in = [&](int tries, bool by_place, std::size_t most,
+                            double farthest) -> std::optional<Remeshed> {
     for (int i = 0; i < tries && !over; ++i) {
       std::vector<Vec3> wrong;
       std::optional<Surface> made = uneven && !by_place ? attempt.even()
                                     : by_place && i == 0 && first
                                         ? std::exchange(first, std::nullopt)
                                         : attempt.collapsed();
-      if (made && !made->triangles.empty()) {
+      if (made) {
         if (i == 0 && !by_place && !uneven) first = made;
         flatten_sides(surface, attempt.longest(), *made);
         const std::size_t count = made->triangles.size();
         over = count >= most;
-        if (over || (fair && (i >= enough_tries || few_of * count > given))) break;
-        Distance distance;
-        const std::size_t places = by_place ? SIZE_MAX : 1;
-        add_distance(*made, original, limit, around, places, distance, wrong);
-        add_distance(surface, geometry::BoxTree(*made), limit, around, places, distance, wrong);
-        const std::size_t far = wrong.size();
+        if (over) break;
+        double distance = 0.0;
+        const auto measure = [&] {
+          const std::size_t places = by_place ? SIZE_MAX : 1;
+          distance = add_distance(*made, original, farthest, around, places, wrong);
+          distance = std::max(distance, add_distance(surface, geometry::BoxTree(*made), farthest,
+                                                     around, places, wrong));
+        };
+        measure();
+        if (by_place && wrong.empty() && !cgal_library::self_intersections(*made).empty())
+          if (auto mended = Attempt::uncrossed(*made)) {
+            made = std::move(mended);
+            measure();
+          }
         if (by_place) add_crossings(*made, wrong);
-        // A large surface as it is would have no end.
-        const bool serves = by_place && distance.largest <= nearer.looser * limit &&
-                            (distance.near <= 1.0 || given >= large) && distance.near <= fair_near;
-        if (wrong.size() == far && (far == 0 || serves) &&
-            (by_place || looser > 1.0 || count_needles(*made) == 0) &&
+        if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
             std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
-            closed(*made)) {
-          Remeshed good{std::move(*made), distance.largest};
-          if (far == 0) return good;
-          fair = std::move(good);
-          fair_near = distance.near;
-        }
+            closed(*made))
+          return Remeshed{std::move(*made), distance};
         // The next try would take longer than all before.
         over = !by_place && least_growth * static_cast<double>(count) >= static_cast<double>(most);
       }
@@ -342,26 +342,30 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
     }
     return std::nullopt;
   };
+  const auto by_places = [&]() -> std::optional<Remeshed> {
+    constexpr int most_tries = 16;
+    if (nearer.looser > 1.0) {
+      if (auto found = found_in(most_tries, true, given / few_of, limit)) return found;
+      over = false;
+      attempt.restore(spacing);
+    }
+    return found_in(most_tries, true, given, nearer.looser * limit);
+  };
+  if (sharp && !uneven) return by_places();
   constexpr int even_tries = 3;
-  constexpr int tries_by_place = 16;
-  if (sharp && !uneven) {
-    auto found = found_in(tries_by_place, true, given);
-    return found ? std::move(found) : std::move(fair);
-  }
   const std::size_t most = uneven ? std::max(2 * given, few) : given;
-  if (auto found = found_in(even_tries, false, most)) return found;
+  if (auto found = found_in(even_tries, false, most, looser * limit)) return found;
   if (over) return std::nullopt;
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
   if (looser <= 1.0) {
     attempt.restore(spacing);
-    if (auto found = found_in(tries_by_place, true, given)) return found;
-    if (fair) return fair;
+    if (auto found = by_places()) return found;
   }
   over = false;
   attempt.restore(spacing);
   for (int i = 0; i < even_tries; ++i) attempt.shorten();
-  return found_in(5, false, most);
+  return found_in(5, false, most, looser * limit);
 }
 
 }  // namespace palpate::meshing

@@ -24,10 +24,9 @@ struct Remeshed {
   double distance = 0.0;  // m, the largest between the two surfaces, in both directions
 };
 
-// Around these places the surfaces have at most this distance from each other, m. A surface that is
-// up to `looser` times as far as others elsewhere serves if eight tries find none that is nearer
-// and has a quarter of the triangles; of 20 000 triangles and more also one that is farther around
-// the places. Of needles with sharp edges the first that is so near, anywhere, is taken.
+// Around these places the surfaces have at most this distance from each other, m. Where no surface
+// with half of the triangles is near enough, one serves that is up to `looser` times as far as
+// others elsewhere; of needles with sharp edges without such tries, and anywhere.
 struct Nearer {
   std::vector<Vec3> places = {};  // m
   double radius = 0.0;            // m

@@ -68,6 +68,17 @@ Surface wedge(double degrees) {
       {{0, 1, 3}, {0, 3, 2}, {0, 4, 5}, {0, 5, 1}, {2, 3, 5}, {2, 5, 4}, {0, 2, 4}, {1, 5, 3}}};
 }
 
+// A scan with noise of 0.7 mm.
+Surface rough_ellipsoid() {
+  Surface rough = sampled(geometry::Ellipsoid{{0.06, 0.05, 0.04}}, 0.8e-3);
+  EXPECT_GT(rough.triangles.size(), 20000u);
+  const Vec3 middle(0.03, 0.025, 0.02);
+  for (std::size_t v = 0; v < rough.vertices.size(); ++v)
+    rough.vertices[v] += 0.7e-3 * std::sin(1e3 * static_cast<double>(v * v % 1013)) *
+                         (rough.vertices[v] - middle).normalized();
+  return rough;
+}
+
 long pages_of_children() {
   rusage used{};
   getrusage(RUSAGE_CHILDREN, &used);
@@ -260,12 +271,7 @@ TEST(CoarseSurface, IsNearerAroundPlaces) {
 // The noise of this scan is larger than the limit, so that a surface as near as that would be the
 // given one.
 TEST(CoarseSurface, IsOneThatServesWhereNoneIsNear) {
-  Surface rough = sampled(geometry::Ellipsoid{{0.06, 0.05, 0.04}}, 0.8e-3);
-  ASSERT_GT(rough.triangles.size(), 20000u);
-  const Vec3 middle(0.03, 0.025, 0.02);
-  for (std::size_t v = 0; v < rough.vertices.size(); ++v)
-    rough.vertices[v] += 0.7e-3 * std::sin(1e3 * static_cast<double>(v * v % 1013)) *
-                         (rough.vertices[v] - middle).normalized();
+  const Surface rough = rough_ellipsoid();
   const double limit = remeshing_limit(rough, 15e-3);
   const auto coarse = remeshed(rough, 15e-3, {.looser = 4.0});
   ASSERT_TRUE(coarse.has_value());
@@ -273,6 +279,23 @@ TEST(CoarseSurface, IsOneThatServesWhereNoneIsNear) {
   EXPECT_LT(coarse->surface.triangles.size(), rough.triangles.size() / 4);
   EXPECT_GT(coarse->distance, limit);
   EXPECT_LE(coarse->distance, 4.0 * limit);
+}
+
+// Of many triangles one had been taken that was farther there, without a word.
+TEST(CoarseSurface, OfALargeRoughOneIsNearAroundPlacesAllTheSame) {
+  const Surface rough = rough_ellipsoid();
+  const Vec3 top(0.03, 0.025, 0.04);
+  constexpr double radius = 4e-3;
+  constexpr double distance = 0.02e-3;
+  const auto coarse = remeshed(rough, 15e-3, {{top}, radius, distance, 4.0});
+  ASSERT_TRUE(coarse.has_value());
+  check_closed(coarse->surface, "coarse");
+  EXPECT_LT(coarse->surface.triangles.size(), rough.triangles.size() / 4);
+  const geometry::BoxTree tree(coarse->surface);
+  for (const Vec3& vertex : rough.vertices) {
+    if ((vertex - top).norm() > radius) continue;
+    ASSERT_LE(std::sqrt(tree.nearest(vertex).distance_squared), distance);
+  }
 }
 
 TEST(CoarseSurface, IsNotMadeFiner) {
