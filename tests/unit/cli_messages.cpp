@@ -78,6 +78,10 @@ TEST_F(Messages, OneOfEachClass) {
   const std::pair<std::string, std::string> cases[] = {
       {"[tissue]\nyoung_modulos = \"60 kPa\"\n",
        "press.toml:5:1: `young_modulos` is not a key here; did you mean `young_modulus`?"},
+      {"[tissue]\nmesh = { file = \"box.msh\", unit = \"mm\", up = \"y\" }\n",
+       "press.toml:5:41: `up` is not a key here; write `tissue.shape = { kind = \"as_meshed\", up "
+       "= "
+       "\"y\" }`"},
       {"[tisue]\n", "press.toml:4:2: `tisue` is not a key here; did you mean `tissue`?"},
       {"[solver]\nmodel = \"hertz\"\n[tissue]\ndensity = \"1100 kg/m^3\"\n",
        "press.toml:7:1: `density` has no effect here: it is used only with `solver.model = "
