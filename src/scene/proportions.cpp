@@ -18,6 +18,9 @@ namespace {
 constexpr double through = 0.9;
 constexpr double deep = 0.5;
 
+// Of the longest side of the body's box in its file, m.
+double length(const SurfaceTouch& touch) { return (touch.high - touch.low).maxCoeff(); }
+
 // "; with another unit of `tissue.shape` ...", of a body from a file.
 std::string unit_text(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
   const auto* surface = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
@@ -25,7 +28,7 @@ std::string unit_text(const scenario::Resolved& scenario, const SurfaceTouch& to
   const bool meshed = std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape);
   if (surface == nullptr && (mesh == nullptr || !meshed)) return "";
   const std::string others =
-      meshing::other_units(touch.size.maxCoeff(), surface != nullptr ? surface->unit : mesh->unit);
+      meshing::other_units(length(touch), surface != nullptr ? surface->unit : mesh->unit);
   return std::string(" and `unit` of `tissue.") + (surface != nullptr ? "shape`" : "mesh`") +
          (others.empty() ? "" : ": " + others);
 }
@@ -43,8 +46,8 @@ std::string mm_text(double length) { return rounded_text(unit::mm.from_si(length
 
 // How far from the surface `finger.at` may be, and from the place that is pressed.
 double near(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
-  constexpr double share = 0.1;  // of the longest side of the body's box
-  return std::max(scenario.finger.radius, share * (touch.high - touch.low).maxCoeff());
+  constexpr double share = 0.1;
+  return std::max(scenario.finger.radius, share * length(touch));
 }
 
 // "the finger comes from outside and meets the body at ... mm, 40 mm before the place of `at`", if
@@ -67,7 +70,7 @@ std::size_t step_through(const scenario::Resolved& scenario, const SurfaceTouch&
     if (const auto* indent = std::get_if<scenario::Indent>(&scenario.steps[i]))
       if (!indent->to.second &&
           (estimates.tissue_share * indent->to.value > through * touch.to_base ||
-           indent->to.value > touch.size.maxCoeff()))
+           indent->to.value > length(touch)))
         return i + 1;
   return 0;
 }
@@ -136,7 +139,7 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
   if (const std::string before = meets_before(scenario, touch); !before.empty())
     found.push_back(before + "; change `finger.at` or `finger.towards` if that is not meant");
   constexpr double longest = 2.0;  // m
-  if (!units.empty() && touch.size.maxCoeff() > longest)
+  if (!units.empty() && length(touch) > longest)
     found.push_back("the body is " + size_text(touch) + "; check its size" + units);
   return found;
 }

@@ -232,7 +232,29 @@ TEST_F(PlacedBody, what_was_made_of_a_mesh_file_is_told) {
             "1 hexahedra, prisms and pyramids of box.mesh were cut into tetrahedra");
 }
 
-// Twice 30 mm wide with a hole of 20 mm, 10 mm high.
+// The notes on a press with these lines of `[finger]`, of a shape that has these keys.
+class NotedBody : public PlacedBody {
+ protected:
+  [[nodiscard]] std::vector<std::string> notes(const std::string& finger,
+                                               const std::string& unit = "mm") const {
+    const scenario::Family family = scenario::parse(
+        "[tissue]\nshape = { file = \"box.off\", unit = \"" + unit +
+            "\" }\n[solver]\nmodel = \"solid\"\n[[step]]\nkind = \"indent\"\nto = \"2 " + unit +
+            "\"\n[finger]\nmaterial = \"rigid\"\n" + finger,
+        folder_ + "/press.toml", {});
+    const Choice choice = run::choose(family.cases.front());
+    return disproportions(choice.chosen, choice.touch, choice.expected);
+  }
+};
+
+// Of a box that is pressed on a slope, whose own box is longer than the body.
+TEST_F(NotedBody, the_longest_side_is_that_of_the_file) {
+  const auto found = notes("radius = \"70 um\"\ntowards = \"-1 -1 0\"\n", "um");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found.front().ends_with("in `cm` it would be 0.6 m long, in `mm` 0.06 m"))
+      << found.front();
+}
+
 // A frame of 60 mm in the plane and 10 mm height with a hole of 20 mm.
 geometry::Surface square_ring() {
   geometry::Surface ring;
