@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <variant>
 
 #include "base/error.h"
@@ -138,6 +139,21 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
                     ": it presses like a plate; check `finger.radius`" + units);
   if (const std::string before = meets_before(scenario, touch); !before.empty())
     found.push_back(before + "; change `finger.at` or `finger.towards` if that is not meant");
+  constexpr double aslant = 10.0;  // degrees
+  const double off = std::acos(std::clamp(touch.around.z(), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+  if (off > aslant) {
+    std::string towards;
+    for (const double part : Vec3(-scenario.tissue.turn.transpose() * touch.around))
+      towards +=
+          (towards.empty() ? "" : " ") + rounded_text(std::abs(part) < 0.005 ? 0.0 : part, 2);
+    found.push_back(
+        "the press is along the normal at the place of `at`, and the mean normal of "
+        "the surface around is " +
+        rounded_text(off, 2) +
+        " degrees off it; if another direction is meant, give it, as `finger.towards "
+        "= \"" +
+        towards + "\"` for the mean");
+  }
   constexpr double longest = 2.0;  // m
   if (!units.empty() && length(touch) > longest)
     found.push_back("the body is " + size_text(touch) + "; check its size" + units);
