@@ -142,6 +142,10 @@ namespace {
 // Words of earlier versions, and those that took their place.
 constexpr std::array renamed{std::pair<const char*, const char*>{"neo_hookean", "solid"}};
 
+// A key that is looked for in another table, and how it is written there.
+constexpr std::pair elsewhere{"tissue.mesh.up",
+                              R"(tissue.shape = { kind = "as_meshed", up = "y" })"};
+
 class Reader final : public FieldVisitor {
  public:
   // `trust_uses`: whether all choices on which Key::use depends could be read.
@@ -317,7 +321,7 @@ class Reader final : public FieldVisitor {
     const Member* member = here.node->find(key.name);
     if (member == nullptr) return nullptr;
     if (!key.use.used && trust_uses_) {
-      reading_->unread.push_back({path_of(key), key.use.when});
+      reading_->unread.push_back({path_of(key.name), key.use.when});
       if (key.use.otherwise == Use::Otherwise::note)
         reading_->notes.push_back(
             {member->place, ticked(key.name) + " is left unread: it is used only " + key.use.when});
@@ -329,11 +333,11 @@ class Reader final : public FieldVisitor {
     return &member->value;
   }
 
-  [[nodiscard]] std::string path_of(const Key& key) const {
+  [[nodiscard]] std::string path_of(const std::string& key) const {
     std::string path;
     for (const Open& open : open_)
       if (!open.name.empty()) path += open.name + ".";
-    return path + key.name;
+    return path + key;
   }
 
   void enter(const std::string& name, const Node& node, const std::function<void()>& visit) {
@@ -352,7 +356,10 @@ class Reader final : public FieldVisitor {
     const std::vector<std::string> known(here.known.begin(), here.known.end());
     for (const Member& member : here.node->members) {
       if (here.known.contains(member.key)) continue;
-      problem(member.place, no_key_text(member.key, known));
+      problem(member.place,
+              path_of(member.key) == elsewhere.first
+                  ? ticked(member.key) + " is not a key here; write " + ticked(elsewhere.second)
+                  : no_key_text(member.key, known));
     }
   }
 

@@ -48,6 +48,8 @@ std::string ending_of(const std::string& path) {
 
 Kind kind_of(const std::string& path) {
   const std::string ending = ending_of(path);
+  if (fs::is_regular_file(path) && fs::is_empty(path))
+    throw InputError({path}, "is empty; save it again, or name another file");
   if (ending == ".csv" || fs::is_directory(path)) return Kind::results;
   for (const char* known : {".stl", ".obj", ".ply", ".off", ".vtp"})
     if (ending == known) return Kind::surface;

@@ -21,6 +21,10 @@ int count_of(double length, double spacing, int least) {
   return std::max(least, static_cast<int>(std::lround(length / spacing)));
 }
 
+// Points around the surface; the first is not repeated at the end. A single point is a pole. A loop
+// that follows a line and returns contains the points between its ends twice.
+using Loop = std::vector<Vec3>;
+
 // Numbers the points of a loop; a point that occurs twice gets a single number.
 std::vector<int> added(const Loop& loop, std::vector<Vec3>& vertices) {
   const std::size_t first = vertices.size();
@@ -211,8 +215,10 @@ double ellipse_perimeter(double a, double b) {
   return pi * (3.0 * (a + b) - std::sqrt((3.0 * a + b) * (a + 3.0 * b)));
 }
 
-}  // namespace
-
+// The surface through `loops`. Between two loops, each next edge is the shorter one of two
+// candidates. The surface is closed if the first and last loops enclose no area. The triangles face
+// outwards if every loop runs to the right, seen from outside with the sequence of loops upwards.
+// Points that a loop contains twice become one vertex.
 Surface stitched(const std::vector<Loop>& loops) {
   Surface surface;
   std::vector<int> below;
@@ -223,6 +229,8 @@ Surface stitched(const std::vector<Loop>& loops) {
   }
   return surface;
 }
+
+}  // namespace
 
 std::vector<Surface> sweep_surfaces(const Sweep& sweep, const Spacing& spacing) {
   std::optional<int> rows_outside;

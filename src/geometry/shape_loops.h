@@ -8,16 +8,6 @@
 
 namespace palpate::geometry {
 
-// Points around the surface; the first is not repeated at the end. A single point is a pole. A loop
-// that follows a line and returns contains the points between its ends twice.
-using Loop = std::vector<Vec3>;
-
-// The surface through `loops`. Between two loops, each next edge is the shorter one of two
-// candidates. The surface is closed if the first and last loops enclose no area. The triangles face
-// outwards if every loop runs to the right, seen from outside with the sequence of loops upwards.
-// Points that a loop contains twice become one vertex.
-[[nodiscard]] Surface stitched(const std::vector<Loop>& loops);
-
 // A cross-section normal to y: a circle, or two half circles connected by straight lines along x.
 struct Section {
   double straight = 0.0;  // m, half the length of each straight line

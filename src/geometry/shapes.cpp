@@ -401,6 +401,16 @@ struct Lowered {
   }
 };
 
+// The curvature of the surface f = 0 from the gradient of f, which points outwards, and its second
+// derivatives.                                                       docs/theory.md [level_set]
+Curvature level_curvature(const Vec3& gradient, const Eigen::Matrix3d& second) {
+  const double length = gradient.norm();
+  const Vec3 normal = gradient / length;
+  const auto [a, b] = tangent_axes(normal);
+  return principal(
+      normal, {a.dot(second * a) / length, a.dot(second * b) / length, b.dot(second * b) / length});
+}
+
 // f = |(d, z)| - r with d = |x - x_0| - s beside the straight part, else f = z - r.
 //                                                                  docs/theory.md [from_above]
 ShapeTouch on_side(const Lowered& sphere, double at) {
@@ -477,14 +487,6 @@ std::optional<ShapeTouch> touch_ellipsoid(const Ellipsoid& ellipsoid, double x, 
 }
 
 }  // namespace
-
-Curvature level_curvature(const Vec3& gradient, const Eigen::Matrix3d& second) {
-  const double length = gradient.norm();
-  const Vec3 normal = gradient / length;
-  const auto [a, b] = tangent_axes(normal);
-  return principal(
-      normal, {a.dot(second * a) / length, a.dot(second * b) / length, b.dot(second * b) / length});
-}
 
 std::optional<ShapeTouch> touch_from_above(const Shape& shape, double x, double y, double radius) {
   if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape))

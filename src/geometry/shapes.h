@@ -117,8 +117,4 @@ struct ShapeTouch {
 [[nodiscard]] std::optional<ShapeTouch> touch_from_above(const Shape& shape, double x, double y,
                                                          double radius);
 
-// The curvature of the surface f = 0 from the gradient of f, which points outwards, and its second
-// derivatives.                                                       docs/theory.md [level_set]
-[[nodiscard]] Curvature level_curvature(const Vec3& gradient, const Eigen::Matrix3d& second);
-
 }  // namespace palpate::geometry

@@ -314,8 +314,10 @@ std::string format_of(const std::string& path) {
 Polygons faces_in(const std::string& path) {
   Cells cells = read_cells(path);
   if (!cells.solids.empty())
-    throw InputError({path},
-                     "holds solid cells; name it in `tissue.mesh` in place of `tissue.shape`");
+    throw KeyError("tissue.shape.file",
+                   path +
+                       ": holds solid cells; name it in `tissue.mesh` in place of "
+                       "`tissue.shape`, as `mesh = { file = ..., unit = \"mm\" }`");
   for (std::size_t f = 0; f < cells.faces.size(); ++f) {
     const std::string wrong =
         wrong_corners("face " + std::to_string(f), cells.faces[f], 0, cells.nodes.size());

@@ -26,9 +26,6 @@ constexpr double beside_inclusion = 2.6;
 // to 3.4 % high.
 constexpr double thin_wall = 5.0;
 
-// Tries to mesh a body that fail end after this: time decides whether there is a mesh, not which.
-constexpr double longest_search = 60.0;  // s
-
 std::size_t meshes_for(double tolerance) {
   if (tolerance >= solid::error_of_one_mesh) return 1;
   return tolerance >= solid::error_of_two_meshes ? 2 : 3;
@@ -55,7 +52,8 @@ double stiff_skin(const scene::Scene& scene) {
 
 }  // namespace
 
-SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
+SolidPress::SolidPress(const scene::Scene& scene, double longest_search)
+    : scene_(&scene), longest_search_(longest_search) {
   std::size_t count = meshes_for(scene.scenario.solver.tolerance);
   deepest_ =
       scene::deepest_travel(scene.scenario, scene.finger.whole, scene.choice.expected.yields);
@@ -85,7 +83,7 @@ SolidPress::SolidPress(const scene::Scene& scene) : scene_(&scene) {
 // from theirs.
 void SolidPress::make() {
   const Stopwatch watch;
-  const auto over = [&] { return watch.seconds() > longest_search; };
+  const auto over = [&] { return watch.seconds() > longest_search_; };
   // Again with elements a little smaller where the surface is a file's, as TetGen may fail by bad
   // luck.
   constexpr double finer = 1.07;

@@ -19,8 +19,9 @@ namespace palpate::run {
 //                                                                docs/theory.md [solid_force]
 class SolidPress {
  public:
-  // The scene must outlive this. Throws MeshError.
-  explicit SolidPress(const scene::Scene& scene);
+  // The scene must outlive this. Tries to mesh a body that fail end after `longest_search` (s):
+  // time decides whether there is a mesh, not which. Throws MeshError.
+  explicit SolidPress(const scene::Scene& scene, double longest_search = 60.0);
 
   // The straight way sideways of a step, m beside the first touch, and how far along it the finger
   // is.
@@ -62,6 +63,7 @@ class SolidPress {
   [[nodiscard]] solid::FingerOrder order(double per_radius) const;
 
   const scene::Scene* scene_;
+  double longest_search_;  // s
   Surface surface_ = Surface::smooth;
   bool included_ = false;        // balls of another tissue
   double inclusion_size_ = 1.0;  // of their radii

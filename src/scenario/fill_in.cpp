@@ -65,6 +65,7 @@ void read_named_file(const NamedFile& named, const Node& document, Sources& sour
     std::string content;
     try {
       content = read_text(one.string());
+      if (content.empty()) throw InputError({}, "is empty; save it again, or name another file");
     } catch (const InputError& error) {
       throw InputError(place_of(document, path + ".file"),
                        "`file` names `" + one.string() + "`, which " + error.problems()[0].message);

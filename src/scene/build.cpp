@@ -329,9 +329,24 @@ void refuse_unresolved(const Scene& scene) {
       "; give `tissue.mesh` more cells or a `grading`, or set `contact.coupling = \"consistent\"`");
 }
 
+// The contact of the finger with a flat layer as thick as the specimen.
 void set_layer(Scene& scene) {
-  const contact::Layer layer = layers_of(scene.scenario, 1.0 - scene.finger.compliance_share);
-  scene.layer = make_layer(scene.scenario, scene.finger, layer_law(layer));
+  const Finger& finger = scene.finger;
+  // With calibration "force" the spheres share the layer law of the single sphere they replace.
+  const bool as_one = scene.scenario.finger.calibration == finger::Calibration::force;
+  scene.layer = {.radius = as_one ? finger.whole.radius : finger.sphere_radius,
+                 .modulus = as_one ? finger.whole.modulus : finger.sphere_modulus,
+                 .thickness = geometry::extent(*parametric(scene.scenario.tissue.shape)).z(),
+                 .law = layer_law(layers_of(scene.scenario, 1.0 - finger.compliance_share))};
+}
+
+// The relaxation of the contact's modulus: the tissue's behind an elastic finger [relaxation];
+// empty (elastic) if the contact does not include viscosity.
+contact::Relaxation contact_relaxation(const Scene& scene) {
+  const scenario::Resolved& scenario = scene.scenario;
+  if (!scenario::viscous_contact(scenario) || scenario.uniform()) return {};
+  const contact::Relaxation tissue = relaxation_of(scenario.tissue.law);
+  return tissue.elastic() ? tissue : contact::behind_finger(tissue, finger_share_on_body(scene));
 }
 
 void set_depth_ratio(Scene& scene, const scenario::Family& family) {
@@ -509,13 +524,6 @@ double finger_share_on_body(const Scene& scene) {
   return share_by(ratio * (1.0 + ball * then) / (1.0 + ball * at_rest));
 }
 
-contact::Relaxation contact_relaxation(const Scene& scene) {
-  const scenario::Resolved& scenario = scene.scenario;
-  if (!scenario::viscous_contact(scenario) || scenario.uniform()) return {};
-  const contact::Relaxation tissue = relaxation_of(scenario.tissue.law);
-  return tissue.elastic() ? tissue : contact::behind_finger(tissue, finger_share_on_body(scene));
-}
-
 contact::Layer layers_of(const scenario::Resolved& scenario, double share) {
   const auto& tissue = scenario.tissue;
   contact::Layer layer{.base = tissue.base == tissue::Base::bonded
@@ -561,16 +569,6 @@ bool several_tissues(const scenario::Resolved& scenario) {
            region.young_modulus != scenario.tissue.young_modulus ||
            region.poisson_ratio != scenario.tissue.poisson_ratio;
   });
-}
-
-contact::LayerContact make_layer(const scenario::Resolved& scenario, const Finger& finger,
-                                 contact::LayerLaw law) {
-  // With calibration "force" the spheres share the layer law of the single sphere they replace.
-  const bool as_one = scenario.finger.calibration == finger::Calibration::force;
-  return {.radius = as_one ? finger.whole.radius : finger.sphere_radius,
-          .modulus = as_one ? finger.whole.modulus : finger.sphere_modulus,
-          .thickness = geometry::extent(*parametric(scenario.tissue.shape)).z(),
-          .law = std::move(law)};
 }
 
 namespace {

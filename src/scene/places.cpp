@@ -402,8 +402,13 @@ double base_level(const scenario::Resolved& scenario, const geometry::Surface& b
 }
 
 void refuse_held(const scenario::Resolved& scenario, double base_level, const Vec3& touched) {
+  const scenario::PlainFinger& finger = scenario.finger;
   if (touched.dot(scenario.tissue.base_up) <= base_level)
-    throw MeshError(
+    throw KeyError(
+        !finger.towards.empty()       ? "finger.towards"
+        : !finger.at.empty()          ? "finger.at"
+        : scenario.tissue.base_height ? "tissue.base_height"
+                                      : "tissue.base_side",
         "the finger presses the side that the base holds, which cannot give way; change "
         "`finger.at` or `finger.towards`, or `tissue.base_side` or `tissue.base_height`");
 }

@@ -43,7 +43,7 @@ void place_in_scene(scenario::Resolved& scenario, const std::string& folder,
 // point. Flat is an underside with a twentieth of the surface, or with sharp edges around it.
 [[nodiscard]] double base_level(const scenario::Resolved& scenario, const geometry::Surface& body);
 
-// Throws MeshError for a place (m) of the surface that the base holds, which no finger can press.
+// Throws KeyError for a place (m) of the surface that the base holds, which no finger can press.
 void refuse_held(const scenario::Resolved& scenario, double base_level, const Vec3& touched);
 
 // The part of the surface's area that is the base, and how much of the underside within a radius

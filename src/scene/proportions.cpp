@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <variant>
 
 #include "base/error.h"
@@ -18,6 +19,9 @@ namespace {
 constexpr double through = 0.9;
 constexpr double deep = 0.5;
 
+// Of the longest side of the body's box in its file, m.
+double length(const SurfaceTouch& touch) { return (touch.high - touch.low).maxCoeff(); }
+
 // "; with another unit of `tissue.shape` ...", of a body from a file.
 std::string unit_text(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
   const auto* surface = std::get_if<scenario::SurfaceFile>(&scenario.tissue.shape);
@@ -25,7 +29,7 @@ std::string unit_text(const scenario::Resolved& scenario, const SurfaceTouch& to
   const bool meshed = std::holds_alternative<scenario::AsMeshed>(scenario.tissue.shape);
   if (surface == nullptr && (mesh == nullptr || !meshed)) return "";
   const std::string others =
-      meshing::other_units(touch.size.maxCoeff(), surface != nullptr ? surface->unit : mesh->unit);
+      meshing::other_units(length(touch), surface != nullptr ? surface->unit : mesh->unit);
   return std::string(" and `unit` of `tissue.") + (surface != nullptr ? "shape`" : "mesh`") +
          (others.empty() ? "" : ": " + others);
 }
@@ -43,8 +47,8 @@ std::string mm_text(double length) { return rounded_text(unit::mm.from_si(length
 
 // How far from the surface `finger.at` may be, and from the place that is pressed.
 double near(const scenario::Resolved& scenario, const SurfaceTouch& touch) {
-  constexpr double share = 0.1;  // of the longest side of the body's box
-  return std::max(scenario.finger.radius, share * (touch.high - touch.low).maxCoeff());
+  constexpr double share = 0.1;
+  return std::max(scenario.finger.radius, share * length(touch));
 }
 
 // "the finger comes from outside and meets the body at ... mm, 40 mm before the place of `at`", if
@@ -67,7 +71,7 @@ std::size_t step_through(const scenario::Resolved& scenario, const SurfaceTouch&
     if (const auto* indent = std::get_if<scenario::Indent>(&scenario.steps[i]))
       if (!indent->to.second &&
           (estimates.tissue_share * indent->to.value > through * touch.to_base ||
-           indent->to.value > touch.size.maxCoeff()))
+           indent->to.value > length(touch)))
         return i + 1;
   return 0;
 }
@@ -135,8 +139,23 @@ std::vector<std::string> disproportions(const scenario::Resolved& scenario,
                     ": it presses like a plate; check `finger.radius`" + units);
   if (const std::string before = meets_before(scenario, touch); !before.empty())
     found.push_back(before + "; change `finger.at` or `finger.towards` if that is not meant");
+  constexpr double aslant = 10.0;  // degrees
+  const double off = std::acos(std::clamp(touch.around.z(), -1.0, 1.0)) * 180.0 / std::numbers::pi;
+  if (off > aslant) {
+    std::string towards;
+    for (const double part : Vec3(-scenario.tissue.turn.transpose() * touch.around))
+      towards +=
+          (towards.empty() ? "" : " ") + rounded_text(std::abs(part) < 0.005 ? 0.0 : part, 2);
+    found.push_back(
+        "the press is along the normal at the place of `at`, and the mean normal of "
+        "the surface around is " +
+        rounded_text(off, 2) +
+        " degrees off it; if another direction is meant, give it, as `finger.towards "
+        "= \"" +
+        towards + "\"` for the mean");
+  }
   constexpr double longest = 2.0;  // m
-  if (!units.empty() && touch.size.maxCoeff() > longest)
+  if (!units.empty() && length(touch) > longest)
     found.push_back("the body is " + size_text(touch) + "; check its size" + units);
   return found;
 }

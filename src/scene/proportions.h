@@ -27,7 +27,8 @@ void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch
 
 // Sentences on what is computed, but probably not meant: a press through more than half of the
 // tissue, a finger wider than the body, a body longer than any that is pressed, another side of the
-// body than that of `finger.at`.
+// body than that of `finger.at`, and a press along a normal from which that of the surface around
+// it differs.
 [[nodiscard]] std::vector<std::string> disproportions(const scenario::Resolved& scenario,
                                                       const SurfaceTouch& touch,
                                                       const Estimates& estimates);

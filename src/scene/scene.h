@@ -233,11 +233,8 @@ struct Scene {
 // is stiffer than a half-space has less of it than their half-spaces have. At once and at rest the
 // modulus is then that of the elastic forces.                          docs/theory.md [relaxation]
 [[nodiscard]] double finger_share_on_body(const Scene& scene);
-// The relaxation of the contact's modulus: the tissue's behind an elastic finger [relaxation];
-// empty (elastic) if the contact does not include viscosity.
 // A tissue's law as that of its modulus.
 [[nodiscard]] contact::Relaxation relaxation_of(const tissue::ViscousLaw& law);
-[[nodiscard]] contact::Relaxation contact_relaxation(const Scene& scene);
 
 // Whether all regions are layers; true without regions.
 [[nodiscard]] bool all_slabs(const scenario::Resolved& scenario);
@@ -250,9 +247,5 @@ struct Scene {
 // The flat layers of a cuboid, with the tissue on top. `share` as in contact::Layer.
 //                                                               docs/theory.md [layer_stack]
 [[nodiscard]] contact::Layer layers_of(const scenario::Resolved& scenario, double share);
-
-// The contact of the finger with a flat layer as thick as the specimen.
-[[nodiscard]] contact::LayerContact make_layer(const scenario::Resolved& scenario,
-                                               const Finger& finger, contact::LayerLaw law);
 
 }  // namespace palpate::scene

@@ -143,6 +143,20 @@ double to_creases(const geometry::SmoothSurface& surface, const Vec3& point, con
   return nearest;
 }
 
+// The mean of the normals at a place and nearest to eight around it, at a distance (m).
+Vec3 mean_normal(const geometry::SmoothSurface& surface, const geometry::SurfacePoint& at,
+                 double distance) {
+  const geometry::BoxTree tree(surface.surface());
+  Vec3 sum = surface.normal(at);
+  const Vec3 along = sum.unitOrthogonal(), across = sum.cross(along);
+  for (const auto& [i, j] :
+       {std::pair(1, 0), {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {
+    const Vec3 beside = surface.position(at) + distance * (i * along + j * across).normalized();
+    sum += surface.closest_point(beside, tree.nearest(beside)).normal;
+  }
+  return sum.normalized();
+}
+
 // The law of a rigid finger on a flat: that of an elastic one changes little here.
 contact::SphereLaw law_on_flat(const Scenario& scenario) {
   const contact::Elastic tissue{scenario.tissue.young_modulus, scenario.tissue.poisson_ratio};
@@ -235,6 +249,8 @@ SurfaceTouch of_file(const geometry::SmoothSurface& surface, const Scenario& sce
   }
   touch.position = surface.position(first.at);
   set_to_base(touch, surface.surface(), touch.position, scenario);
+  if (!scenario.finger.at.empty() && scenario.finger.towards.empty())
+    touch.around = mean_normal(surface, first.at, 0.5 * radius);
   if (first.on_crease) {
     touch.to_edge = 0.0;
     touch.cannot = on_an_edge;

@@ -30,8 +30,11 @@ struct SurfaceTouch {
   // m, from the touch to the nearest edge (convex crease) of a file's surface, 0 on one, to the end
   // of a lying cylinder or limb, or from the finger's way to the nearest side of a cuboid.
   double to_edge = std::numeric_limits<double>::infinity();
-  double width = 1.0;        // of the contact at the deepest travel, as width_on_edge()
-  bool one_sided = false;    // the curvature has StarStatus::one_sided
+  double width = 1.0;      // of the contact at the deepest travel, as width_on_edge()
+  bool one_sided = false;  // the curvature has StarStatus::one_sided
+  // The mean of the normals around the touch, where the normal at `finger.at` alone says from which
+  // side the press comes; else up.
+  Vec3 around = Vec3::UnitZ();
   std::string cannot = {};   // why there is no curvature; empty if there is one
   std::string warning = {};  // on what was made of the file; empty if it is taken as it is
   bool nowhere = false;      // no model can press here: beside the body, or it is not sound

@@ -78,6 +78,10 @@ TEST_F(Messages, OneOfEachClass) {
   const std::pair<std::string, std::string> cases[] = {
       {"[tissue]\nyoung_modulos = \"60 kPa\"\n",
        "press.toml:5:1: `young_modulos` is not a key here; did you mean `young_modulus`?"},
+      {"[tissue]\nmesh = { file = \"box.msh\", unit = \"mm\", up = \"y\" }\n",
+       "press.toml:5:41: `up` is not a key here; write `tissue.shape = { kind = \"as_meshed\", up "
+       "= "
+       "\"y\" }`"},
       {"[tisue]\n", "press.toml:4:2: `tisue` is not a key here; did you mean `tissue`?"},
       {"[solver]\nmodel = \"hertz\"\n[tissue]\ndensity = \"1100 kg/m^3\"\n",
        "press.toml:7:1: `density` has no effect here: it is used only with `solver.model = "
@@ -127,6 +131,30 @@ TEST_F(Messages, FilesThatAreNone) {
   expect_refused("run no.toml empty.toml",
                  "no.toml: cannot be read: No such file or directory; check the path\n"
                  "empty.toml:1:1: the file is empty; a scenario starts with `schema = 1`");
+}
+
+TEST_F(Messages, FilesOfBodiesThatAreNone) {
+  for (const std::string ending : {"stl", "obj", "ply", "off", "msh"}) {
+    const std::string file = "empty." + ending;
+    write(file, "");
+    expect_refused("convert --unit mm " + file,
+                   file + ": is empty; save it again, or name another file");
+    for (const std::string table : {"shape", "mesh"}) {
+      if ((table == "mesh") != (ending == "msh")) continue;
+      write("press.toml",
+            press + "[tissue]\n" + table + " = { file = \"" + file + "\", unit = \"mm\" }\n");
+      expect_refused("run press.toml",
+                     "press.toml:5:" + std::to_string(table.size() + 13) + ": `file` names `" +
+                         file + "`, which is empty; save it again, or name another file");
+    }
+  }
+  write("cells.mesh",
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n30 0 0 0\n0 30 0 0\n"
+        "0 0 30 0\nTetrahedra\n1\n1 2 3 4 0\nEnd\n");
+  write("press.toml", press + "[tissue]\nshape = { file = \"cells.mesh\", unit = \"mm\" }\n");
+  expect_refused("run press.toml",
+                 "press.toml:5:18: cells.mesh: holds solid cells; name it in `tissue.mesh` in "
+                 "place of `tissue.shape`, as `mesh = { file = ..., unit = \"mm\" }`");
 }
 
 TEST_F(Messages, SettingsAndArguments) {

@@ -250,11 +250,16 @@ TEST_F(RunBodies, long_strips_are_named_with_the_place_and_a_remedy) {
       << ended.err;
 }
 
-TEST_F(RunBodies, a_press_on_what_is_held_is_refused) {
-  const Ended ended = run("base_side = \"x\"\n" + column(0.0).substr(column(0.0).find("shape")),
-                          "at = [\"12 mm\", \"6 mm\", \"12 mm\"]\ntowards = \"-x\"\n");
-  EXPECT_EQ(ended.code, 5);
-  EXPECT_TRUE(says(ended, "presses the side that the base holds")) << ended.err;
+TEST_F(RunBodies, a_press_on_what_is_held_is_refused_at_the_key_that_leads_there) {
+  const std::string shape = column(0.0).substr(column(0.0).find("shape"));
+  const std::string at = "at = [\"12 mm\", \"6 mm\", \"12 mm\"]\n";
+  for (const auto& [finger, place] :
+       {std::pair(at + "towards = \"-x\"\n", "press.toml:14:11: "), {at, "press.toml:13:6: "}}) {
+    const Ended ended = run("base_side = \"x\"\n" + shape, finger);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(says(ended, place + std::string("the finger presses the side that the base holds")))
+        << ended.err;
+  }
 }
 
 // A column as Gmsh writes its surface, whose end x = 0 is a group, and with y = 0 another one.

@@ -339,7 +339,7 @@ TEST_F(CellFiles, faces_alone_are_a_surface) {
       "Triangles\n4\n1 3 2 0\n1 2 4 0\n2 3 4 0\n3 1 4 0\nEnd\n";
   EXPECT_EQ(read_surface(written("a.mesh", text), 1.0).triangles.size(), 4u);
   EXPECT_THROW((void)read_mesh(written("a.mesh", text), 1.0), InputError);
-  EXPECT_THROW((void)read_surface(written("b.mesh", medit()), 1.0), InputError);
+  EXPECT_THROW((void)read_surface(written("b.mesh", medit()), 1.0), KeyError);
 }
 
 }  // namespace

@@ -232,7 +232,57 @@ TEST_F(PlacedBody, what_was_made_of_a_mesh_file_is_told) {
             "1 hexahedra, prisms and pyramids of box.mesh were cut into tetrahedra");
 }
 
-// Twice 30 mm wide with a hole of 20 mm, 10 mm high.
+// The notes on a press with these lines of `[finger]`, of a shape that has these keys.
+class NotedBody : public PlacedBody {
+ protected:
+  [[nodiscard]] std::vector<std::string> notes(const std::string& finger,
+                                               const std::string& unit = "mm") const {
+    const scenario::Family family = scenario::parse(
+        "[tissue]\nshape = { file = \"box.off\", unit = \"" + unit +
+            "\" }\n[solver]\nmodel = \"solid\"\n[[step]]\nkind = \"indent\"\nto = \"2 " + unit +
+            "\"\n[finger]\nmaterial = \"rigid\"\n" + finger,
+        folder_ + "/press.toml", {});
+    const Choice choice = run::choose(family.cases.front());
+    return disproportions(choice.chosen, choice.touch, choice.expected);
+  }
+};
+
+// Of a box that is pressed on a slope, whose own box is longer than the body.
+TEST_F(NotedBody, the_longest_side_is_that_of_the_file) {
+  const auto found = notes("radius = \"70 um\"\ntowards = \"-1 -1 0\"\n", "um");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found.front().ends_with("in `cm` it would be 0.6 m long, in `mm` 0.06 m"))
+      << found.front();
+}
+
+// A roof of 60 degrees along x, 30 mm high. Beside its ridge the normal is that of one side.
+TEST_F(NotedBody, a_press_along_a_normal_beside_a_ridge_is_told) {
+  const double half = 30.0 / std::sqrt(3.0);
+  geometry::Surface roof;
+  for (const double x : {0.0, 60.0})
+    for (const auto& [y, z] : {std::pair(-half, 0.0), {half, 0.0}, {0.0, 30.0}})
+      roof.vertices.emplace_back(x, y, z);
+  roof.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                    {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  meshing::write_surface(folder_ + "/box.off", roof, 1.0);
+  const std::string beside = "radius = \"8 mm\"\nat = [\"30 mm\", \"1 mm\", \"28 mm\"]\n";
+  const auto found = notes(beside);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found.front().starts_with("the press is along the normal at the place of `at`"))
+      << found.front();
+  EXPECT_TRUE(notes(beside + "towards = \"-z\"\n").empty());
+  EXPECT_TRUE(notes("radius = \"8 mm\"\nat = [\"30 mm\", \"9 mm\", \"15 mm\"]\n").empty());
+}
+
+// However small the ball is.
+TEST_F(NotedBody, a_press_on_a_ball_is_along_the_mean_of_its_normals) {
+  meshing::write_surface(
+      folder_ + "/box.off",
+      geometry::sampled(geometry::Ellipsoid{Vec3(20, 20, 20)}, {2.0, 2.0}).parts.front().surface,
+      1.0);
+  EXPECT_TRUE(notes("radius = \"9 mm\"\nat = [\"18 mm\", \"10 mm\", \"16 mm\"]\n").empty());
+}
+
 // A frame of 60 mm in the plane and 10 mm height with a hole of 20 mm.
 geometry::Surface square_ring() {
   geometry::Surface ring;
