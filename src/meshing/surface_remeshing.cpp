@@ -28,6 +28,8 @@ constexpr double needle_altitude = 1.0 / 15.0;                     // altitude o
 constexpr double shorter = 0.75;                                   // the next spacing to try
 constexpr double least_growth = 1.5;                               // of triangles by that
 constexpr double shorter_there = 0.5;                              // the same of some vertices
+constexpr double finer = 1.0 / 8.0;  // edges with which tries begin, of the spacing
+constexpr std::size_t fine = 15000;  // triangles with which they begin of needles, about
 
 // Where a farther surface serves, a nearer one has at most half of the triangles.
 constexpr std::size_t few_of = 2;
@@ -126,16 +128,21 @@ class Attempt {
 
   [[nodiscard]] double longest() const { return std::ranges::max(spacing_); }
 
-  // Even triangles that are collapsed, all to the first spacing. A few that cross are replaced.
+  // Even triangles that are collapsed, all to the first spacing.
   [[nodiscard]] std::optional<Surface> even() {
     if (!begin()) return std::nullopt;
     return in_child([&] {
       const double edge = spacing_.front();
       const Surface even = cgal_library::even(begun_, even_part * edge, crease_degrees);
-      Surface found = cgal_library::collapsed(even, std::vector(even.vertices.size(), edge));
-      return cgal_library::self_intersections(found).empty() ? found
-                                                             : cgal_library::uncrossed(found);
+      return without_crossings(
+          cgal_library::collapsed(even, std::vector(even.vertices.size(), edge)));
     });
+  }
+
+  // Even triangles with edges of about `edge`, m.
+  [[nodiscard]] static std::optional<Surface> even(const Surface& surface, double edge) {
+    return in_child(
+        [&] { return without_crossings(cgal_library::even(surface, edge, crease_degrees)); });
   }
 
   [[nodiscard]] std::optional<Surface> collapsed() {
@@ -176,7 +183,6 @@ class Attempt {
   // Edges of a large surface are collapsed once to a finer one, from which all tries begin whose
   // edges are twice as long or more; a smaller one begins as it is.
   [[nodiscard]] bool begin() {
-    constexpr double finer = 1.0 / 8.0;
     bool begun = !begun_.triangles.empty();
     for (std::size_t v = 0; begun && v < begun_with_.size(); ++v)
       begun = spacing_[v] >= 2.0 * begun_with_[v];
@@ -194,6 +200,12 @@ class Attempt {
     begun_ = std::move(*found);
     for (const Vec3& vertex : begun_.vertices) nearest_.push_back(nearest_vertex(vertex));
     return true;
+  }
+
+  // A few that cross are replaced.
+  [[nodiscard]] static Surface without_crossings(const Surface& surface) {
+    return cgal_library::self_intersections(surface).empty() ? surface
+                                                             : cgal_library::uncrossed(surface);
   }
 
   template <class Make>
@@ -244,6 +256,11 @@ void add_crossings(const Surface& surface, std::vector<Vec3>& places) {
     }
 }
 
+// The edge length (m) of so many even triangles.
+double edge_of(const Surface& surface, std::size_t triangles) {
+  return std::sqrt(geometry::area(surface) / (0.433 * static_cast<double>(triangles)));
+}
+
 bool closed(const Surface& surface) {
   try {
     check_closed(surface, "remeshed");
@@ -266,10 +283,7 @@ std::size_t count_needles(const Surface& surface) {
   return count;
 }
 
-double spacing_of(const Surface& surface) {
-  return std::sqrt(geometry::area(surface) /
-                   (0.433 * static_cast<double>(surface.triangles.size())));
-}
+double spacing_of(const Surface& surface) { return edge_of(surface, surface.triangles.size()); }
 
 double cell_for(const Surface& surface, int nodes) {
   // Nodes on the surface have 0.866 h^2 each, and nodes inside, half an edge below it, 0.7 h^3.
@@ -300,7 +314,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
   Attempt attempt(surface, original, spacing);
   std::optional<Surface> first;  // edges of the spacing that was asked for
   bool over = false;             // shorter spacings would have too many triangles
-  const auto found_in = [&](int tries, bool by_place, std::size_t most,
+  const auto found_in = [&](Attempt& attempt, int tries, bool by_place, std::size_t most,
                             double farthest) -> std::optional<Remeshed> {
     for (int i = 0; i < tries && !over; ++i) {
       std::vector<Vec3> wrong;
@@ -342,30 +356,36 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
     }
     return std::nullopt;
   };
-  const auto by_places = [&]() -> std::optional<Remeshed> {
+  const auto by_places = [&](const Surface& from) -> std::optional<Remeshed> {
     constexpr int most_tries = 16;
+    const geometry::BoxTree tree(from);
+    Attempt by_place(from, tree, spacing);
+    over = false;
     if (nearer.looser > 1.0) {
-      if (auto found = found_in(most_tries, true, given / few_of, limit)) return found;
+      if (auto found = found_in(by_place, most_tries, true, given / few_of, limit)) return found;
       over = false;
-      attempt.restore(spacing);
+      by_place.restore(spacing);
     }
-    return found_in(most_tries, true, given, nearer.looser * limit);
+    return found_in(by_place, most_tries, true, given, nearer.looser * limit);
   };
-  if (sharp && !uneven) return by_places();
+  if (sharp && !uneven) return by_places(surface);
   constexpr int even_tries = 3;
   const std::size_t most = uneven ? std::max(2 * given, few) : given;
-  if (auto found = found_in(even_tries, false, most, looser * limit)) return found;
+  if (auto found = found_in(attempt, even_tries, false, most, looser * limit)) return found;
   if (over) return std::nullopt;
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
   if (looser <= 1.0) {
-    attempt.restore(spacing);
-    if (auto found = by_places()) return found;
+    if (auto found = by_places(surface)) return found;
+    // Long needles stay long where they are collapsed, their even triangles do not.
+    if (uneven)
+      if (const auto even = Attempt::even(surface, edge_of(surface, fine)))
+        if (auto found = by_places(*even)) return found;
   }
   over = false;
   attempt.restore(spacing);
   for (int i = 0; i < even_tries; ++i) attempt.shorten();
-  return found_in(5, false, most, looser * limit);
+  return found_in(attempt, 5, false, most, looser * limit);
 }
 
 }  // namespace palpate::meshing
