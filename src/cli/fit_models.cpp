@@ -445,14 +445,14 @@ fit::Fit solid_after_ramp(std::span<const double> x, std::span<const double> y,
   fit::Estimate& jump = result.parameters[1];
   jump.name = "y_0";
   jump.estimate += result.parameters[0].estimate;
-  if (const std::vector<double>& v = result.covariance; v.size() == 9) {
+  if (const dense::Matrix& v = result.covariance; v.rows() == 3) {
     const double t = (jump.ci95_high - jump.ci95_low) / (2.0 * jump.std_error);
-    jump.std_error = std::sqrt(v[0] + v[4] + 2.0 * v[1]);
+    jump.std_error = std::sqrt(v(0, 0) + v(1, 1) + 2.0 * v(0, 1));
     jump.ci95_low = jump.estimate - t * jump.std_error;
     jump.ci95_high = jump.estimate + t * jump.std_error;
   }
   result.parameters[2].name = "tau";
-  result.covariance.clear();  // of the series
+  result.covariance = {};  // of the series
   return result;
 }
 

@@ -251,7 +251,7 @@ void finish_terms(Minimum& minimum, std::size_t lead) {
   reorder_parameters(minimum, from);
   for (std::size_t i = lead + 1; i < count; i += 2) {
     const double tau = std::exp(minimum.parameters[i]);
-    replace_parameter(minimum, i, tau, tau);
+    replace_parameter(minimum, static_cast<Eigen::Index>(i), tau, tau);
   }
 }
 
@@ -564,7 +564,7 @@ Fit fit_fractional(std::span<const double> x, std::span<const double> y, Fractio
   std::vector<double> scale(count, 1.0);
   if (minimum.status != Minimum::Status::failed) {
     const double beta = exponent_of(minimum.parameters.back());
-    replace_parameter(minimum, count - 1, beta, beta * (1.0 - beta));
+    replace_parameter(minimum, minimum.jacobian.cols() - 1, beta, beta * (1.0 - beta));
     if (zener) {
       const double tau = std::exp(minimum.parameters[2]);
       replace_parameter(minimum, 2, tau, tau);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/dense.h"
 #include "base/words.h"
 
 namespace palpate::fit {
@@ -96,7 +97,7 @@ struct Fit {
   Model model = Model::logarithmic;
   std::string name = {};  // of a curve that is not in models(): `hertz`, `prony`; empty otherwise
   std::vector<Estimate> parameters = {};  // in the order of info(model)
-  std::vector<double> covariance = {};    // of the estimates, by rows; empty if unknown
+  dense::Matrix covariance = {};          // of the estimates; empty if unknown
   double r2 = Estimate::unknown;          // 1 - SSE / SST about the mean; NaN if y is constant
   double rmse = Estimate::unknown;        // sqrt(SSE / n), in the unit of y
   int n = 0;                              // points used
