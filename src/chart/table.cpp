@@ -55,6 +55,7 @@ std::optional<std::size_t> knee(std::span<const Tradeoff> front) {
 namespace {
 
 using record::Cell;
+using record::known;
 
 struct Spread {
   double least, median, most;
@@ -74,11 +75,9 @@ Cell ratio(const std::optional<Deviation>& deviation, double Deviation::*part) {
 
 Cell count(int number) { return number > 0 ? Cell(static_cast<double>(number)) : Cell(); }
 
-Cell word(const std::string& text) { return text.empty() ? Cell() : Cell(text); }
-
 Cell rings(const Measurement& one) {
   const auto number = whole_number(one.rings);
-  return number ? Cell(*number) : word(one.rings);
+  return number ? Cell(*number) : known(one.rings);
 }
 
 // Rounded to four digits, the accuracy of the clock.
@@ -128,9 +127,9 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
   std::vector<Cell> row{chart.name,
                         one.variant.group,
                         one.variant.name,
-                        word(one.model),
-                        word(one.coupling),
-                        word(one.integrator),
+                        known(one.model),
+                        known(one.coupling),
+                        known(one.integrator),
                         rings(one),
                         one.substep > 0.0 ? Cell(1e3 * one.substep) : Cell(),
                         count(one.substeps),
@@ -143,7 +142,7 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
                         chart.truth.kind,
                         verdict.floor,
                         verdict.error[i] > 0.0 ? Cell(verdict.error[i]) : Cell(),
-                        one.surface_error ? Cell(*one.surface_error) : Cell(),
+                        known(one.surface_error),
                         one.surface_error ? Cell(chart.surface.error) : Cell(),
                         ratio(one.time_error, &Deviation::greatest),
                         ratio(one.time_error, &Deviation::rms),
@@ -163,8 +162,8 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
   flag(std::ranges::find(verdict.front, i) != verdict.front.end());
   flag(verdict.knee == i);
   flag(verdict.taken == i);
-  row.push_back(word(joined(one.variant.settings, "; ")));
-  row.push_back(word(one.note));
+  row.push_back(known(joined(one.variant.settings, "; ")));
+  row.push_back(known(one.note));
   return row;
 }
 

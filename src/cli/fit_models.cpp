@@ -566,19 +566,16 @@ fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
   return fitted_over_time(command, curve);
 }
 
-std::string model_name(const fit::Fit& result) {
-  return result.name.empty() ? std::string(fit::info(result.model).name) : result.name;
-}
-
 // A search that ended without a minimum has no result.
 void refuse_unconverged(const fit::Fit& result) {
   if (result.termination == fit::Termination::converged) return;
   if (result.termination == fit::Termination::undetermined) {
-    throw InputError({}, "these points do not determine every parameter of `" + model_name(result) +
+    throw InputError({}, "these points do not determine every parameter of `" +
+                             fit::model_name(result) +
                              "`; fit a model with fewer parameters, or record more points");
   }
   throw InputError(
-      {}, "the search for the parameters of `" + model_name(result) +
+      {}, "the search for the parameters of `" + fit::model_name(result) +
               "` ended without a minimum (" + std::string(fit::word(result.termination)) +
               "), so that there is no result; choose another model, or a part of the curve");
 }

@@ -171,6 +171,13 @@ double r_squared(std::span<const double> y, double squares) {
   return total > 0.0 ? 1.0 - squares / total : Estimate::unknown;
 }
 
+std::string model_name(const Fit& fit) {
+  return fit.name.empty() ? std::string(info(fit.model).name) : fit.name;
+}
+std::string formula_of(const Fit& fit) {
+  return fit.name.empty() ? std::string(info(fit.model).formula) : fit.law;
+}
+
 void need_points(const std::string& model, std::size_t needed, std::size_t usable,
                  const std::string& for_what, const std::string& end) {
   if (usable >= needed) return;

@@ -115,6 +115,10 @@ struct Fit {
   std::vector<std::string> warnings = {};  // sentences: why the estimates may be wrong
 };
 
+// Its name and formula, which a curve that is not in models() has of its own.
+[[nodiscard]] std::string model_name(const Fit& fit);
+[[nodiscard]] std::string formula_of(const Fit& fit);
+
 struct Options {
   std::string x_unit = {};  // for the parameters' units, as returned by column_unit
   std::string y_unit = {};

@@ -18,9 +18,7 @@ namespace palpate::stability {
 namespace {
 
 using record::Cell;
-
-Cell cell(const std::optional<double>& number) { return number ? Cell(*number) : Cell(); }
-Cell cell(const std::string& word) { return word.empty() ? Cell() : Cell(word); }
+using record::known;
 
 Cell microseconds(const std::optional<double>& seconds) {
   return seconds ? Cell(1e6 * *seconds) : Cell();
@@ -36,8 +34,8 @@ record::Table limit_table(const StabilityMap& map) {
     Cell ratio;
     if (row.measured && row.theory && *row.theory > 0.0) ratio = *row.measured / *row.theory;
     table.rows.push_back({row.model, row.volume, row.integrator, row.damping, row.axis,
-                          cell(row.value), microseconds(row.measured), microseconds(row.theory),
-                          ratio, failure_word(row.failure), cell(row.note)});
+                          known(row.value), microseconds(row.measured), microseconds(row.theory),
+                          ratio, failure_word(row.failure), known(row.note)});
   }
   return table;
 }
@@ -47,10 +45,10 @@ record::Table failure_table(const StabilityMap& map) {
   table.columns = {"failure", "model",    "integrator", "setting", "setting_unit",
                    "measure", "measured", "theory",     "seen",    "note"};
   for (const FailureRow& row : map.failures)
-    table.rows.push_back({failure_word(row.failure), cell(row.model), cell(row.integrator),
-                          cell(row.setting), cell(row.setting_unit), row.measure,
-                          cell(row.measured), cell(row.theory), row.reached ? "yes" : "not reached",
-                          cell(row.note)});
+    table.rows.push_back({failure_word(row.failure), known(row.model), known(row.integrator),
+                          known(row.setting), known(row.setting_unit), row.measure,
+                          known(row.measured), known(row.theory),
+                          row.reached ? "yes" : "not reached", known(row.note)});
   return table;
 }
 
