@@ -36,16 +36,13 @@ double median_spacing(std::vector<double> x) {
   return steps.empty() ? 0.0 : fit::median(std::move(steps));
 }
 
-// One pair of data and scenario within a search.
-struct Part {
+// One pair of data and scenario within a search; `found` is of this pair alone.
+struct Part : PreparedCurve {
   const scenario::Family* family = nullptr;
   std::vector<Unknown> unknowns;   // those of this pair
   std::vector<std::size_t> index;  // of each, among all unknowns
-  std::unique_ptr<ScenarioCurve> curve;
-  std::size_t from = 0, to = 0;  // its points among all
-  double rows_each = 1.0;
+  std::size_t from = 0, to = 0;    // its points among all
   DefaultBody body;
-  Identification found;  // of this pair alone
 
   template <class T>
   [[nodiscard]] std::vector<T> own(std::span<const T> all) const {
@@ -112,26 +109,15 @@ class Search {
       part.unknowns.push_back(unknowns_[i]);
       part.index.push_back(i);
     }
-    PreparedCurve prepared =
+    static_cast<PreparedCurve&>(part) =
         prepare_curve(*pair.measured, *pair.family, part.unknowns, options_.noise);
-    Identification& found = part.found;
-    found.kind = prepared.curve->kind();
-    found.given = prepared.given;
-    found.taken = prepared.curve->fixed().solver.model;
-    found.worst_error = prepared.worst_error;
-    found.excluded = prepared.excluded;
-    found.notes = std::move(prepared.notes);
-    found.x = std::move(prepared.x);
-    found.measured = std::move(prepared.measured);
-    part.rows_each = prepared.rows_each;
-    part.curve = std::move(prepared.curve);
-    found.closed_form = part.curve->has_formula();
+    const Identification& found = part.found;
     part.from = found_.x.size();
     found_.x.insert(found_.x.end(), found.x.begin(), found.x.end());
     found_.measured.insert(found_.measured.end(), found.measured.begin(), found.measured.end());
     part.to = found_.x.size();
     found_.excluded += found.excluded;
-    weights_.insert(weights_.end(), prepared.weights.begin(), prepared.weights.end());
+    weights_.insert(weights_.end(), part.weights.begin(), part.weights.end());
   }
 
   [[nodiscard]] bool joint() const { return parts_.size() > 1; }

@@ -11,8 +11,8 @@
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
 #include "scenario/words.h"
+#include "stability/measure.h"
 #include "stability/stability.h"
-#include "stability/survey.h"
 
 namespace palpate::stability {
 namespace {
