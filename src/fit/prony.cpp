@@ -48,13 +48,8 @@ Eigen::VectorXd over_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
   std::vector<Eigen::Index> columns;
   for (Eigen::Index i = 0; i < a.cols(); ++i)
     if (free[static_cast<std::size_t>(i)] != 0) columns.push_back(i);
-  Eigen::MatrixXd some(a.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    some.col(static_cast<Eigen::Index>(k)) = a.col(columns[k]);
-  const Eigen::VectorXd solved = dense::least_squares(some, b);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(a.cols());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    all[columns[k]] = solved[static_cast<Eigen::Index>(k)];
+  all(columns) = dense::least_squares(a(Eigen::all, columns), b);
   return all;
 }
 

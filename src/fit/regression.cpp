@@ -163,11 +163,8 @@ std::optional<std::vector<double>> initial_guess(std::span<const double> x,
 }
 
 double r_squared(std::span<const double> y, double squares) {
-  double mean = 0.0;
-  for (const double each : y) mean += each;
-  mean /= static_cast<double>(y.size());
-  double total = 0.0;
-  for (const double each : y) total += (each - mean) * (each - mean);
+  const Eigen::Map<const Eigen::ArrayXd> all(y.data(), static_cast<Eigen::Index>(y.size()));
+  const double total = (all - all.mean()).square().sum();
   return total > 0.0 ? 1.0 - squares / total : Estimate::unknown;
 }
 

@@ -362,8 +362,8 @@ std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
 ResidualErrors errors_of(std::span<const double> residuals, const Rows& jacobian,
                          const Matrix& inverse, std::span<const std::span<const double>> records) {
   const Eigen::Index p = jacobian.cols();
-  double squares = 0.0;
-  for (const double each : residuals) squares += each * each;
+  const double squares =
+      Eigen::Map<const Eigen::VectorXd>(residuals.data(), jacobian.rows()).squaredNorm();
   const auto degrees = static_cast<double>(jacobian.rows() - p);
   const ResidualErrors white{.degrees = degrees, .covariance = inverse * squares / degrees};
   ResidualErrors found = white;
@@ -386,16 +386,11 @@ ResidualErrors errors_of(std::span<const double> residuals, const Rows& jacobian
 // Durbin-Watson statistic and runs test.
 
 double durbin_watson(std::span<const double> residuals) {
-  double steps = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    squares += residuals[i] * residuals[i];
-    if (i > 0) {
-      const double step = residuals[i] - residuals[i - 1];
-      steps += step * step;
-    }
-  }
-  return squares > 0.0 ? steps / squares : 2.0;
+  const Eigen::Map<const Eigen::VectorXd> all(residuals.data(),
+                                              static_cast<Eigen::Index>(residuals.size()));
+  const double squares = all.squaredNorm();
+  const Eigen::Index steps = all.size() - 1;
+  return squares > 0.0 ? (all.tail(steps) - all.head(steps)).squaredNorm() / squares : 2.0;
 }
 
 double runs_z(std::span<const double> residuals) {

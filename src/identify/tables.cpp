@@ -315,11 +315,11 @@ std::string figure_words(const std::string& name) {
 }
 
 // The arguments without those that change no result, run where the files lie.
-std::string command_of(const std::vector<std::string>& argv, std::span<const PairFiles> pairs) {
+std::string command_of(const std::vector<std::string>& argv, std::span<const Pair> pairs) {
   const auto file_of = [&](const std::string& word) {
     const std::string name = std::filesystem::path(word).filename().string();
-    const bool known = std::ranges::any_of(pairs, [&](const PairFiles& pair) {
-      return word == pair.measured || name == pair.family->inputs.front().name;
+    const bool known = std::ranges::any_of(pairs, [&](const Pair& pair) {
+      return word == pair.file || name == pair.family->inputs.front().name;
     });
     return known ? name : word;
   };
@@ -349,7 +349,7 @@ record::Table residual_table(const Identification& found) {
 }
 
 // The page of an identification: what was found, how well it fits, and what it depends on.
-void write_page(const identify::Identification& found, std::span<const PairFiles> pairs,
+void write_page(const identify::Identification& found, std::span<const Pair> pairs,
                 const std::vector<HashedFile>& inputs, const std::string& command,
                 WholeFolder& folder) {
   page::Page page(pairs.front().family->title, "identification");
@@ -403,7 +403,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
 }  // namespace
 
 std::vector<std::string> write_identification(const Identification& found,
-                                              std::span<const PairFiles> pairs,
+                                              std::span<const Pair> pairs,
                                               const report::Origin& origin, WholeFolder& folder) {
   std::vector<std::string> warnings;
   folder.open();
@@ -435,10 +435,10 @@ std::vector<std::string> write_identification(const Identification& found,
   for (const scenario::InputFile& input : read)
     manifest.inputs.push_back({input.name, sha256(input.content)});
   std::vector<HashedFile> inputs = manifest.inputs;
-  for (const PairFiles& pair : pairs) {
-    const std::string hash = file_sha256(pair.measured);
-    inputs.push_back({std::filesystem::path(pair.measured).filename().string(), hash});
-    manifest.inputs.push_back({pair.measured, hash});
+  for (const Pair& pair : pairs) {
+    const std::string hash = file_sha256(pair.file);
+    inputs.push_back({std::filesystem::path(pair.file).filename().string(), hash});
+    manifest.inputs.push_back({pair.file, hash});
   }
   write_page(found, pairs, inputs, command_of(origin.argv, pairs), folder);
   manifest.outputs = folder.files();

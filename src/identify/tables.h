@@ -67,17 +67,11 @@ struct WeightedResiduals {
 [[nodiscard]] plot::Sheet profile_sheet(const std::string& title,
                                         const identify::Identification& found);
 
-// The files of one pair: the measured one, and the family of its scenario.
-struct PairFiles {
-  std::string measured;
-  const scenario::Family* family = nullptr;
-};
-
 // Writes an identification into `folder` and renames it to its final name. run.json stores the
 // hashes of the measured files. Returns warnings, one per figure that could not
 // be drawn. Throws SystemError if the folder cannot be written.
 [[nodiscard]] std::vector<std::string> write_identification(const Identification& found,
-                                                            std::span<const PairFiles> pairs,
+                                                            std::span<const Pair> pairs,
                                                             const report::Origin& origin,
                                                             WholeFolder& folder);
 
