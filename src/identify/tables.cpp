@@ -279,22 +279,22 @@ std::vector<std::string> warnings_of(const Identification& found,
 namespace {
 
 // The text of scenario.toml, with which `palpate run` repeats the fitted curve.
-std::string echo_of(const identify::Identification& found, const scenario::Family& family) {
+std::string echo_of(const Identification& found, const scenario::Family& family) {
   scenario::Family one = family;
   one.cases.resize(1);
   one.cases.front().scenario = found.scenario;
   one.design = {};
   std::string text = "# Fitted to a measurement: `palpate run` of this file repeats the curve.\n";
-  for (const identify::Identified& each : found.unknowns) {
-    const identify::Unknown& unknown = each.unknown;
+  for (const Identified& each : found.unknowns) {
+    const Unknown& unknown = each.unknown;
     const std::string value = rounded_text(unknown.shown(each.estimate), 6) +
                               (unknown.unit ? " " + unknown.unit_text() : "");
     if (each.inseparable)
       text +=
           "# " + unknown.name() + " is not determined by itself: one of many values that fit.\n";
-    if (unknown.what == identify::Unknown::What::contact_point)
+    if (unknown.what == Unknown::What::contact_point)
       text += "# Displacement 0 is at " + value + " of the measurement.\n";
-    if (unknown.what == identify::Unknown::What::force_offset)
+    if (unknown.what == Unknown::What::force_offset)
       text += "# contact.ambient_force holds the measurement's offset of " + value + ".\n";
   }
   return text + scenario::echo(one);
@@ -349,13 +349,13 @@ record::Table residual_table(const Identification& found) {
 }
 
 // The page of an identification: what was found, how well it fits, and what it depends on.
-void write_page(const identify::Identification& found, std::span<const Pair> pairs,
+void write_page(const Identification& found, std::span<const Pair> pairs,
                 const std::vector<HashedFile>& inputs, const std::string& command,
                 WholeFolder& folder) {
   page::Page page(pairs.front().family->title, "identification");
   // The first unknown large, the others and what the fit is below.
   std::vector<std::string> lines = identified_sentences(found);
-  const identify::Identified& first = found.unknowns.front();
+  const Identified& first = found.unknowns.front();
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
     page.headline(plot::key_label(first.unknown.name()) + " " + value, interval);
     lines.erase(lines.begin());
@@ -364,7 +364,7 @@ void write_page(const identify::Identification& found, std::span<const Pair> pai
     page.headline(known, its_interval);
   }
   std::vector<std::string> unknown;
-  for (const identify::Identified& one : found.unknowns) unknown.push_back(one.unknown.name());
+  for (const Identified& one : found.unknowns) unknown.push_back(one.unknown.name());
   page.answer(lines);
   if (pairs.size() == 1)  // what the unknowns depend on
     page.answer({joined(scenario::tested(pairs.front().family->cases.front(), unknown), "; ")});
@@ -431,9 +431,7 @@ std::vector<std::string> write_identification(const Identification& found,
     if (!is_exact(found)) plot::draw(profile_sheet(title, found), folder, warnings);
   }
 
-  report::Manifest manifest{.origin = origin, .complete = true};
-  for (const scenario::InputFile& input : read)
-    manifest.inputs.push_back({input.name, sha256(input.content)});
+  report::Manifest manifest{.origin = origin, .inputs = scenario::hashed(read), .complete = true};
   std::vector<HashedFile> inputs = manifest.inputs;
   for (const Pair& pair : pairs) {
     const std::string hash = file_sha256(pair.file);
@@ -454,14 +452,14 @@ std::string label(const char* name, const Unit& unit) {
   return *unit.symbol == '\0' ? name : std::string(name) + " (" + unit.symbol + ")";
 }
 
-std::pair<const char*, const char*> axes(identify::CurveKind kind) {
+std::pair<const char*, const char*> axes(CurveKind kind) {
   switch (kind) {
-    case identify::CurveKind::force_travel: return {"Displacement", "Force"};
-    case identify::CurveKind::force_time: return {"Time", "Force"};
-    case identify::CurveKind::tangential_slide: return {"Slide", "Tangential force"};
-    case identify::CurveKind::strain_time: return {"Time", "Strain"};
-    case identify::CurveKind::stress_time: return {"Time", "Stress"};
-    case identify::CurveKind::stress_strain: return {"Strain", "Stress"};
+    case CurveKind::force_travel: return {"Displacement", "Force"};
+    case CurveKind::force_time: return {"Time", "Force"};
+    case CurveKind::tangential_slide: return {"Slide", "Tangential force"};
+    case CurveKind::strain_time: return {"Time", "Strain"};
+    case CurveKind::stress_time: return {"Time", "Stress"};
+    case CurveKind::stress_strain: return {"Strain", "Stress"};
   }
   return {"", ""};
 }
@@ -491,9 +489,9 @@ bool noise_about_zero(const Identification& found) {
 
 }  // namespace
 
-plot::Sheet identified_sheet(const std::string& title, const identify::Identification& found,
+plot::Sheet identified_sheet(const std::string& title, const Identification& found,
                              const std::string& suffix) {
-  const identify::CurveWords& words = identify::words_of(found.kind);
+  const CurveWords& words = words_of(found.kind);
   const auto [x, y] = axes(found.kind);
   const std::string table = "residuals" + suffix + ".csv";
   const std::string file = "'" + table + "' using 1";
@@ -545,7 +543,7 @@ ProfileAxis profile_axis(const Identification& found, std::size_t i) {
 
 }  // namespace
 
-plot::Sheet profile_sheet(const std::string& title, const identify::Identification& found) {
+plot::Sheet profile_sheet(const std::string& title, const Identification& found) {
   const std::size_t panels = found.unknowns.size();
   std::string text = plot::gnuplot_head("profile", {.height = static_cast<int>(60 + 270 * panels)});
   text += "set datafile missing NaN\nset multiplot layout " + std::to_string(panels) + ",1 title " +
@@ -553,7 +551,7 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
           "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset rmargin 4\n"
           "set yrange [0:*]\n";
   for (std::size_t i = 0; i < panels; ++i) {
-    const identify::Identified& one = found.unknowns[i];
+    const Identified& one = found.unknowns[i];
     const std::string unit = one.unknown.unit_text();
     const auto [origin, scale] = profile_axis(found, i);
     const std::string pick = "(strcol('unknown') eq '" + one.unknown.name() +
