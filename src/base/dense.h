@@ -9,6 +9,8 @@
 namespace palpate::dense {
 
 using Matrix = Eigen::MatrixXd;
+// One row after the other, as solvers take derivatives.
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
 // The x of the least |A x - b|, by a QR decomposition with column pivots.

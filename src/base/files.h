@@ -76,6 +76,7 @@ class HeldFile {
 struct HashedFile {
   std::string path = {};
   std::string sha256 = {};
+  bool operator==(const HashedFile&) const = default;
 };
 
 // SHA-256 of content that comes in parts.

@@ -55,6 +55,7 @@ std::optional<std::size_t> knee(std::span<const Tradeoff> front) {
 namespace {
 
 using record::Cell;
+using record::known;
 
 struct Spread {
   double least, median, most;
@@ -74,11 +75,9 @@ Cell ratio(const std::optional<Deviation>& deviation, double Deviation::*part) {
 
 Cell count(int number) { return number > 0 ? Cell(static_cast<double>(number)) : Cell(); }
 
-Cell word(const std::string& text) { return text.empty() ? Cell() : Cell(text); }
-
 Cell rings(const Measurement& one) {
   const auto number = whole_number(one.rings);
-  return number ? Cell(*number) : word(one.rings);
+  return number ? Cell(*number) : known(one.rings);
 }
 
 // Rounded to four digits, the accuracy of the clock.
@@ -128,9 +127,9 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
   std::vector<Cell> row{chart.name,
                         one.variant.group,
                         one.variant.name,
-                        word(one.model),
-                        word(one.coupling),
-                        word(one.integrator),
+                        known(one.model),
+                        known(one.coupling),
+                        known(one.integrator),
                         rings(one),
                         one.substep > 0.0 ? Cell(1e3 * one.substep) : Cell(),
                         count(one.substeps),
@@ -143,7 +142,7 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
                         chart.truth.kind,
                         verdict.floor,
                         verdict.error[i] > 0.0 ? Cell(verdict.error[i]) : Cell(),
-                        one.surface_error ? Cell(*one.surface_error) : Cell(),
+                        known(one.surface_error),
                         one.surface_error ? Cell(chart.surface.error) : Cell(),
                         ratio(one.time_error, &Deviation::greatest),
                         ratio(one.time_error, &Deviation::rms),
@@ -163,8 +162,8 @@ std::vector<Cell> row_of(const CaseChart& chart, const Verdict& verdict, std::si
   flag(std::ranges::find(verdict.front, i) != verdict.front.end());
   flag(verdict.knee == i);
   flag(verdict.taken == i);
-  row.push_back(word(joined(one.variant.settings, "; ")));
-  row.push_back(word(one.note));
+  row.push_back(known(joined(one.variant.settings, "; ")));
+  row.push_back(known(one.note));
   return row;
 }
 
@@ -461,123 +460,156 @@ std::string marker(const std::string& integrator) {
   return std::to_string(no_mesh);
 }
 
-// An axis with a margin of a factor of two on both sides.
+template <class One>
+void add_new(std::vector<One>& all, const One& one) {
+  if (std::ranges::find(all, one) == all.end()) all.push_back(one);
+}
+
+// The numbers that an axis shows.
 struct Range {
   double low, high;
+
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
 };
-Range range(double least, double most) { return {least / 2.0, most * 2.0}; }
 
+// With a margin of a factor of two on both sides.
 std::string axis(const char* name, const Range& range) {
-  return std::string("set ") + name + "range [" + number_text(range.low) + ":" +
-         number_text(range.high) + "]\n" + plot::gnuplot_logarithmic(name, range.low, range.high);
+  const double low = range.low / 2.0;
+  const double high = range.high * 2.0;
+  return std::string("set ") + name + "range [" + number_text(low) + ":" + number_text(high) +
+         "]\n" + plot::gnuplot_logarithmic(name, low, high);
 }
 
-// Two columns of the key: in more of them, which are wider than the page, gnuplot drops entries.
-std::size_t key_rows(const Scatter& scatter) {
-  constexpr std::size_t front = 1;
-  const std::size_t entries =
-      front + scatter.marks.size() + scatter.models.size() + scatter.integrators.size();
-  return (entries + 1) / 2;
-}
+constexpr const char* csv_file = "chart.csv";
 
-std::string frame(const Scatter& scatter) {
-  // NaN means missing, not undefined: rows that are not drawn do not break the line of the front.
-  return "set datafile missing NaN\n"
-         "set title " +
-         plot::gnuplot_quoted(scatter.title) +
-         "\n"
-         "set xlabel 'cost (µs per simulated ms)'\n"
-         "set ylabel 'greatest error (%)'\n" +
-         axis("x", range(std::min(scatter.least_cost, real_time_cost),
-                         std::max(scatter.most_cost, real_time_cost))) +
-         axis("y",
-              range(100.0 * std::min({scatter.least_error, scatter.floor, scatter.tolerance}),
-                    100.0 * std::max({scatter.most_error, scatter.floor, scatter.tolerance}))) +
-         "set key below vertical maxrows " + std::to_string(key_rows(scatter)) +
-         " height 1 Left reverse samplen 1.6 spacing 1.2\n"
-         "set tmargin 2.5\n";
-}
+// The figure of a case.
+class Scatter {
+ public:
+  Scatter(const CaseChart& chart, const Verdict& verdict) : chart_(chart), verdict_(verdict) {
+    error_.take(chart.tolerance);
+    for (std::size_t i = 0; i < chart.rows.size(); ++i) {
+      if (verdict.cost[i] <= 0.0) continue;
+      const Measurement& one = chart.rows[i];
+      add_new(models_, one.model);
+      add_new(integrators_, one.integrator);
+      add_new(series_, std::pair(one.model, one.integrator));
+      for (const double cost : one.costs()) cost_.take(cost);
+      error_.take(verdict.error[i]);
+    }
+    if (verdict.knee)
+      marks_.push_back(ringed(
+          "knee", "pointtype 6 pointsize 2.2 linewidth 2.2 linecolor rgb '#000000'", "knee"));
+    if (verdict.taken)
+      marks_.push_back(ringed("auto",
+                              "pointtype 4 pointsize 2.0 linewidth 2.2 linecolor rgb '#CC79A7'",
+                              "taken by auto"));
+  }
 
-// Lines at real time, at the tolerance and at the error of the reference.
-std::string guides(const Scatter& scatter) {
-  const std::string tolerance = number_text(100.0 * scatter.tolerance);
-  const std::string floor = number_text(100.0 * scatter.floor);
-  const std::string cost = number_text(real_time_cost);
-  return "set arrow 1 from first " + cost + ", graph 0 to first " + cost +
-         ", graph 1 nohead dashtype (6,4) linecolor rgb '#808080'\n"
-         "set label 1 'real time' at first " +
-         cost +
-         ", graph 0.99 offset -0.4,0 right textcolor rgb '#606060' font ',12'\n"
-         "set arrow 2 from graph 0, first " +
-         tolerance + " to graph 1, first " + tolerance +
-         " nohead dashtype (6,4) linecolor rgb '#808080'\n"
-         "set label 2 'tolerance' at graph 0.99, first " +
-         tolerance +
-         " offset 0,0.5 right textcolor rgb '#606060' font ',12'\n"
-         "set arrow 3 from graph 0, first " +
-         floor + " to graph 1, first " + floor +
-         " nohead linewidth 1.5 linecolor rgb '#808080'\n"
-         "set label 3 'the reference''s own error' at graph 0.99, first " +
-         floor + " offset 0,-0.6 right textcolor rgb '#606060' font ',12'\n";
-}
+  [[nodiscard]] plot::Sheet sheet(const std::string& name, const std::string& title) const {
+    // The front as a line; gnuplot sorts its rows by cost.
+    std::vector<std::string> lines{
+        using_rows("column('pareto') == 1") +
+        " smooth unique with lines linewidth 1.6 linecolor rgb '#404040' title 'Pareto front'"};
+    for (const auto& [model, integrator] : series_) lines.push_back(points(model, integrator));
+    lines.insert(lines.end(), marks_.begin(), marks_.end());
+    for (const std::string& model : models_)
+      lines.push_back("keyentry with points pointtype 5 pointsize 1.2 linecolor rgb '#" +
+                      colour_of(model) + "' title " + plot::gnuplot_quoted(model));
+    for (const std::string& integrator : integrators_)
+      lines.push_back("keyentry with points pointtype " + marker(integrator) +
+                      " pointsize 0.9 linecolor rgb '#808080' title " +
+                      plot::gnuplot_quoted(integrator.empty() ? "no mesh" : integrator));
+    return {name,
+            plot::gnuplot_head(name, {.height = 440 + 20 * static_cast<int>(key_rows())}) +
+                frame(title) + guides() + "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
+            {csv_file}};
+  }
 
-// gnuplot's `using` for the rows that meet a condition: NaN as x for all others.
-std::string using_rows(const Scatter& scatter, const std::string& condition) {
-  return plot::gnuplot_quoted(scatter.csv_file) + " using ((strcol('case') eq " +
-         plot::gnuplot_quoted(scatter.case_name) + " && strcol('status') eq 'measured'" +
-         (condition.empty() ? "" : " && " + condition) +
-         ") ? column('cost_us_per_ms') : NaN):(100*column('shown_error'))";
-}
+ private:
+  // Two columns of the key: in more of them, which are wider than the page, gnuplot drops entries.
+  [[nodiscard]] std::size_t key_rows() const {
+    constexpr std::size_t front = 1;
+    return (front + marks_.size() + models_.size() + integrators_.size() + 1) / 2;
+  }
 
-std::string points(const Scatter& scatter, const std::string& model,
-                   const std::string& integrator) {
-  return using_rows(scatter, "strcol('model') eq " + plot::gnuplot_quoted(model) +
-                                 " && strcol('integrator') eq " +
-                                 plot::gnuplot_quoted(integrator)) +
-         ":(column('cost_min_us_per_ms')):(column('cost_max_us_per_ms')) with xerrorbars linewidth "
-         "1.2 linecolor rgb '#50" +
-         colour_of(model) + "' pointtype " + marker(integrator) + " pointsize 0.8 notitle";
-}
+  [[nodiscard]] std::string frame(const std::string& title) const {
+    // NaN means missing, not undefined: rows that are not drawn do not break the line of the front.
+    return "set datafile missing NaN\n"
+           "set title " +
+           plot::gnuplot_quoted(title) +
+           "\n"
+           "set xlabel 'cost (µs per simulated ms)'\n"
+           "set ylabel 'greatest error (%)'\n" +
+           axis("x", cost_) + axis("y", {100.0 * error_.low, 100.0 * error_.high}) +
+           "set key below vertical maxrows " + std::to_string(key_rows()) +
+           " height 1 Left reverse samplen 1.6 spacing 1.2\n"
+           "set tmargin 2.5\n";
+  }
 
-// The front as a line; gnuplot sorts its rows by cost.
-std::string front(const Scatter& scatter) {
-  return using_rows(scatter, "column('pareto') == 1") +
-         " smooth unique with lines linewidth 1.6 linecolor rgb '#404040' title 'Pareto front'";
-}
+  // Lines at real time, at the tolerance and at the error of the reference.
+  [[nodiscard]] std::string guides() const {
+    const std::string tolerance = number_text(100.0 * chart_.tolerance);
+    const std::string floor = number_text(100.0 * verdict_.floor);
+    const std::string cost = number_text(real_time_cost);
+    return "set arrow 1 from first " + cost + ", graph 0 to first " + cost +
+           ", graph 1 nohead dashtype (6,4) linecolor rgb '#808080'\n"
+           "set label 1 'real time' at first " +
+           cost +
+           ", graph 0.99 offset -0.4,0 right textcolor rgb '#606060' font ',12'\n"
+           "set arrow 2 from graph 0, first " +
+           tolerance + " to graph 1, first " + tolerance +
+           " nohead dashtype (6,4) linecolor rgb '#808080'\n"
+           "set label 2 'tolerance' at graph 0.99, first " +
+           tolerance +
+           " offset 0,0.5 right textcolor rgb '#606060' font ',12'\n"
+           "set arrow 3 from graph 0, first " +
+           floor + " to graph 1, first " + floor +
+           " nohead linewidth 1.5 linecolor rgb '#808080'\n"
+           "set label 3 'the reference''s own error' at graph 0.99, first " +
+           floor + " offset 0,-0.6 right textcolor rgb '#606060' font ',12'\n";
+  }
 
-std::string ringed(const Scatter& scatter, const std::string& flag, const std::string& style,
-                   const std::string& title) {
-  return using_rows(scatter, "column('" + flag + "') == 1") + " with points " + style + " title " +
-         plot::gnuplot_quoted(title);
-}
+  // gnuplot's `using` for the rows that meet a condition: NaN as x for all others.
+  [[nodiscard]] std::string using_rows(const std::string& condition) const {
+    return plot::gnuplot_quoted(csv_file) + " using ((strcol('case') eq " +
+           plot::gnuplot_quoted(chart_.name) + " && strcol('status') eq 'measured' && " +
+           condition + ") ? column('cost_us_per_ms') : NaN):(100*column('shown_error'))";
+  }
+
+  [[nodiscard]] std::string points(const std::string& model, const std::string& integrator) const {
+    return using_rows("strcol('model') eq " + plot::gnuplot_quoted(model) +
+                      " && strcol('integrator') eq " + plot::gnuplot_quoted(integrator)) +
+           ":(column('cost_min_us_per_ms')):(column('cost_max_us_per_ms')) with xerrorbars "
+           "linewidth 1.2 linecolor rgb '#50" +
+           colour_of(model) + "' pointtype " + marker(integrator) + " pointsize 0.8 notitle";
+  }
+
+  [[nodiscard]] std::string ringed(const std::string& flag, const std::string& style,
+                                   const std::string& title) const {
+    return using_rows("column('" + flag + "') == 1") + " with points " + style + " title " +
+           plot::gnuplot_quoted(title);
+  }
+
+  const CaseChart& chart_;
+  const Verdict& verdict_;
+  std::vector<std::string> models_, integrators_;  // "" for models without a mesh
+  // Pairs of model and integrator that have rows; gnuplot warns of a series without points.
+  std::vector<std::pair<std::string, std::string>> series_;
+  std::vector<std::string> marks_;  // of the knee and of `auto`, if a row has the mark
+  Range cost_{real_time_cost, real_time_cost};
+  Range error_{verdict_.floor, verdict_.floor};
+};
 
 }  // namespace
 
-plot::Sheet scatter_sheet(const Scatter& scatter) {
-  std::vector<std::string> lines;
-  lines.push_back(front(scatter));
-  for (const auto& [model, integrator] : scatter.series)
-    lines.push_back(points(scatter, model, integrator));
-  for (const std::string& mark : scatter.marks)
-    lines.push_back(mark == "knee"
-                        ? ringed(scatter, mark,
-                                 "pointtype 6 pointsize 2.2 linewidth 2.2 linecolor rgb '#000000'",
-                                 "knee")
-                        : ringed(scatter, mark,
-                                 "pointtype 4 pointsize 2.0 linewidth 2.2 linecolor rgb '#CC79A7'",
-                                 "taken by auto"));
-  for (const std::string& model : scatter.models)
-    lines.push_back("keyentry with points pointtype 5 pointsize 1.2 linecolor rgb '#" +
-                    colour_of(model) + "' title " + plot::gnuplot_quoted(model));
-  for (const std::string& integrator : scatter.integrators)
-    lines.push_back("keyentry with points pointtype " + marker(integrator) +
-                    " pointsize 0.9 linecolor rgb '#808080' title " +
-                    plot::gnuplot_quoted(integrator.empty() ? "no mesh" : integrator));
-  return {
-      scatter.name,
-      plot::gnuplot_head(scatter.name, {.height = 440 + 20 * static_cast<int>(key_rows(scatter))}) +
-          frame(scatter) + guides(scatter) + "plot \\\n  " + joined(lines, ", \\\n  ") + "\n",
-      {scatter.csv_file}};
+std::optional<plot::Sheet> scatter_sheet(const CaseChart& chart, const std::string& name,
+                                         const std::string& title) {
+  const Verdict verdict = judge(chart);
+  if (verdict.front.empty()) return std::nullopt;
+  return Scatter(chart, verdict).sheet(name, title);
 }
 
 }  // namespace palpate::chart

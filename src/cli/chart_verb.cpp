@@ -34,58 +34,17 @@ std::string progress_text(const chart::ChartProgress& progress) {
   return text + ", " + progress.what;
 }
 
-// The words of a column in the measured rows of a case, by first occurrence.
-std::vector<std::string> words_of(const chart::CaseChart& chart,
-                                  std::string chart::Measurement::*column) {
-  std::vector<std::string> words;
-  for (const chart::Measurement& one : chart.rows)
-    if (one.status == chart::Status::measured &&
-        std::ranges::find(words, one.*column) == words.end())
-      words.push_back(one.*column);
-  return words;
-}
-
-void set_series(const chart::CaseChart& chart, const chart::Verdict& verdict,
-                chart::Scatter& scatter) {
-  const std::size_t any = verdict.front.front();
-  scatter.least_cost = scatter.most_cost = verdict.cost[any];
-  scatter.least_error = scatter.most_error = verdict.error[any];
-  for (std::size_t i = 0; i < chart.rows.size(); ++i) {
-    if (verdict.cost[i] <= 0.0) continue;
-    const std::pair pair(chart.rows[i].model, chart.rows[i].integrator);
-    if (std::ranges::find(scatter.series, pair) == scatter.series.end())
-      scatter.series.push_back(pair);
-    for (const double cost : chart.rows[i].costs()) {
-      scatter.least_cost = std::min(scatter.least_cost, cost);
-      scatter.most_cost = std::max(scatter.most_cost, cost);
-    }
-    scatter.least_error = std::min(scatter.least_error, verdict.error[i]);
-    scatter.most_error = std::max(scatter.most_error, verdict.error[i]);
-  }
-}
-
 // Draws chart.svg, or one figure per case. Returns warnings on figures that could not be drawn.
 std::vector<std::string> draw_all(const std::vector<chart::CaseChart>& charts,
                                   const scenario::Family& family, WholeFolder& folder) {
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const chart::CaseChart& chart = charts[i];
-    const chart::Verdict verdict = chart::judge(chart);
-    if (verdict.front.empty()) continue;
-    const std::string title =
-        family.title + (charts.size() > 1 ? ", " + chart.name : std::string());
-    chart::Scatter scatter{.name = charts.size() > 1 ? "chart_" + std::to_string(i + 1) : "chart",
-                           .title = title,
-                           .csv_file = "chart.csv",
-                           .case_name = chart.name,
-                           .models = words_of(chart, &chart::Measurement::model),
-                           .integrators = words_of(chart, &chart::Measurement::integrator),
-                           .floor = verdict.floor,
-                           .tolerance = chart.tolerance};
-    if (verdict.knee) scatter.marks.emplace_back("knee");
-    if (verdict.taken) scatter.marks.emplace_back("auto");
-    set_series(chart, verdict, scatter);
-    plot::draw(chart::scatter_sheet(scatter), folder, warnings);
+    const bool several = charts.size() > 1;
+    if (const auto sheet =
+            chart::scatter_sheet(chart, several ? "chart_" + std::to_string(i + 1) : "chart",
+                                 family.title + (several ? ", " + chart.name : "")))
+      plot::draw(*sheet, folder, warnings);
   }
   return warnings;
 }

@@ -445,14 +445,14 @@ fit::Fit solid_after_ramp(std::span<const double> x, std::span<const double> y,
   fit::Estimate& jump = result.parameters[1];
   jump.name = "y_0";
   jump.estimate += result.parameters[0].estimate;
-  if (const std::vector<double>& v = result.covariance; v.size() == 9) {
+  if (const dense::Matrix& v = result.covariance; v.rows() == 3) {
     const double t = (jump.ci95_high - jump.ci95_low) / (2.0 * jump.std_error);
-    jump.std_error = std::sqrt(v[0] + v[4] + 2.0 * v[1]);
+    jump.std_error = std::sqrt(v(0, 0) + v(1, 1) + 2.0 * v(0, 1));
     jump.ci95_low = jump.estimate - t * jump.std_error;
     jump.ci95_high = jump.estimate + t * jump.std_error;
   }
   result.parameters[2].name = "tau";
-  result.covariance.clear();  // of the series
+  result.covariance = {};  // of the series
   return result;
 }
 
@@ -566,19 +566,16 @@ fit::Fit fitted(const Fit& command, const measured::MeasuredCurve& curve) {
   return fitted_over_time(command, curve);
 }
 
-std::string model_name(const fit::Fit& result) {
-  return result.name.empty() ? std::string(fit::info(result.model).name) : result.name;
-}
-
 // A search that ended without a minimum has no result.
 void refuse_unconverged(const fit::Fit& result) {
   if (result.termination == fit::Termination::converged) return;
   if (result.termination == fit::Termination::undetermined) {
-    throw InputError({}, "these points do not determine every parameter of `" + model_name(result) +
+    throw InputError({}, "these points do not determine every parameter of `" +
+                             fit::model_name(result) +
                              "`; fit a model with fewer parameters, or record more points");
   }
   throw InputError(
-      {}, "the search for the parameters of `" + model_name(result) +
+      {}, "the search for the parameters of `" + fit::model_name(result) +
               "` ended without a minimum (" + std::string(fit::word(result.termination)) +
               "), so that there is no result; choose another model, or a part of the curve");
 }

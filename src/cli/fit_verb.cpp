@@ -65,10 +65,6 @@ std::vector<fit::Estimate> parameters_of(const std::vector<Row>& rows) {
   return all;
 }
 
-record::Cell number(double value) {
-  return std::isfinite(value) ? record::Cell(value) : record::Cell();
-}
-
 record::Table row_table(const std::vector<Row>& rows,
                         const std::vector<fit::Estimate>& parameters) {
   record::Table table;
@@ -89,18 +85,16 @@ record::Table row_table(const std::vector<Row>& rows,
       const fit::Estimate none;
       const fit::Estimate& one = found == row.fit.parameters.end() ? none : *found;
       for (const double value : {one.estimate, one.ci95_low, one.ci95_high})
-        cells.push_back(number(value));
+        cells.push_back(record::known(value));
     }
     if (row.reason.empty()) {
       for (const double value : {row.fit.r2, static_cast<double>(row.fit.n),
                                  static_cast<double>(row.fit.excluded), row.fit.effective_size})
-        cells.push_back(number(value));
-      for (const std::string& text : {row.fit.law, joined(row.fit.warnings, "; ")}) {
-        record::Cell& cell = cells.emplace_back();
-        if (!text.empty()) cell = text;
-      }
+        cells.push_back(record::known(value));
+      for (const std::string& text : {row.fit.law, joined(row.fit.warnings, "; ")})
+        cells.push_back(record::known(text));
     } else {
-      for (int k = 0; k < 5; ++k) cells.emplace_back();
+      cells.resize(cells.size() + 5);
       cells.emplace_back(row.reason);
     }
     table.rows.push_back(std::move(cells));
@@ -151,7 +145,7 @@ record::Table population_table(const std::vector<Population>& all) {
                    "quartile_3", "least", "most"};
   for (const Population& one : all)
     table.rows.push_back({one.name, static_cast<double>(one.sorted.size()), one.mean,
-                          number(one.deviation), quantile(one.sorted, 0.25),
+                          record::known(one.deviation), quantile(one.sorted, 0.25),
                           quantile(one.sorted, 0.5), quantile(one.sorted, 0.75), one.sorted.front(),
                           one.sorted.back()});
   return table;
@@ -279,10 +273,8 @@ std::string table_for_people(const fit::Fit& result) {
               " to " + report::warranted_text(one.ci95_high, one.ci95_low, one.ci95_high) + ")";
     text += "\n";
   }
-  const std::string law =
-      result.name.empty() ? std::string(fit::info(result.model).formula) : result.law;
-  return text + law + "\n" + std::to_string(result.n) + " points, R^2 " + rounded_text(result.r2) +
-         "\n";
+  return text + fit::formula_of(result) + "\n" + std::to_string(result.n) + " points, R^2 " +
+         rounded_text(result.r2) + "\n";
 }
 
 }  // namespace

@@ -161,13 +161,13 @@ scenario::Family read_scenario(const Identify& command, const std::string& path,
 }
 
 // The arguments say how the data are read and what is unknown.
-std::string origin_of(const Arguments& arguments, std::span<const identify::PairFiles> pairs) {
+std::string origin_of(const Arguments& arguments, std::span<const identify::Pair> pairs) {
   std::string text;
   for (const std::string& word : arguments.given)
     if (word != "--force" && word != "--quiet" && word != "-q" && word != "--json")
       text += word + "\n";
-  for (const identify::PairFiles& pair : pairs)
-    text += file_sha256(pair.measured) + "\n" + report::origin_of(*pair.family);
+  for (const identify::Pair& pair : pairs)
+    text += file_sha256(pair.file) + "\n" + report::origin_of(*pair.family);
   return text;
 }
 
@@ -183,7 +183,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   std::vector<scenario::Family> families;
   families.reserve(asked.size());
   std::vector<const scenario::Scenario*> scenarios;
-  std::vector<identify::PairFiles> files;
+  std::vector<identify::Pair> pairs;
   for (const auto& [data, path] : asked) {
     if (data.ends_with(".toml") && !path.ends_with(".toml"))
       throw InputError({data, 0, 0},
@@ -191,7 +191,7 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
                            path + " " + data + "`");
     families.push_back(read_scenario(command, path, notes));
     scenarios.push_back(&families.back().cases.front().scenario);
-    files.push_back({data, &families.back()});
+    pairs.push_back({nullptr, &families.back(), data});
   }
   const std::vector<identify::Unknown> unknowns =
       identify::read_unknowns(command.unknowns, scenarios);
@@ -201,15 +201,14 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   identify::set_givens(family, givens);
   WholeFolder folder((std::filesystem::path(command.out) / (family.name + "_identified")).string(),
                      "identification", command.force ? Replace::any : Replace::incomplete,
-                     origin_of(arguments, files));
+                     origin_of(arguments, pairs));
   folder.refuse_what_is_there();
   std::vector<identify::Measurement> measured;
   measured.reserve(asked.size());
-  std::vector<identify::Pair> pairs;
-  for (const identify::PairFiles& one : files) {
+  for (identify::Pair& pair : pairs) {
     measured.push_back(
-        read_measurement(command, one.measured, one.family->cases.front().scenario, notes));
-    pairs.push_back({&measured.back(), one.family});
+        read_measurement(command, pair.file, pair.family->cases.front().scenario, notes));
+    pair.measured = &measured.back();
   }
   identify::IdentifyOptions options;
   if (command.noise == "relative") options.noise = identify::Noise::relative;
@@ -223,15 +222,15 @@ int perform(const Identify& command, const Arguments& arguments, const Talk& tal
   for (const std::string& note : notes) talk.say("note: " + note);
   for (const std::string& warning : found.warnings) talk.warn(warning);
   const std::string missing = warn_all(
-      identify::write_identification(found, files, {arguments.given, started}, folder), talk);
+      identify::write_identification(found, pairs, {arguments.given, started}, folder), talk);
   if (talk.json()) {
     print(json_lines(identify::identified_table(found)));
   } else {
     for (const std::string& line : identify::identified_sentences(found)) print(line + "\n");
   }
-  const std::string each = files.size() > 1 ? "_1" : "";
+  const std::string each = pairs.size() > 1 ? "_1" : "";
   talk.say(folder.path() + ": identified.csv, residuals" + each + ".csv, profile.csv, scenario" +
-           each + ".toml" + (files.size() > 1 ? " and those of the other pairs" : "") + missing);
+           each + ".toml" + (pairs.size() > 1 ? " and those of the other pairs" : "") + missing);
   talk.next("open", folder.path());
   const auto inseparable = [](const identify::Identified& one) { return one.inseparable; };
   return std::ranges::any_of(found.unknowns, inseparable) ? exit_partial : exit_good;

@@ -134,9 +134,7 @@ class AdhesiveFit {
     if (fit_.termination == Termination::failed) return std::move(fit_);
     modulus = minimum.parameters[0] * guess[0];
     work = minimum.parameters[1] * guess[1];
-    fit_.law += none   ? ", with no baseline"
-                : tilt ? ", with a force offset and a tilt"
-                       : ", with a force offset";
+    fit_.law += with_baseline(none ? Baseline::none : tilt ? Baseline::tilt : Baseline::offset);
     fit_.notes.push_back(
         std::to_string(curve_.attached) + " points are in contact and " +
         std::to_string(curve_.depth.size() - curve_.attached) +

@@ -8,17 +8,10 @@
 #include "base/units.h"
 
 namespace palpate::fit {
+
+using record::known;
+
 namespace {
-
-record::Cell number(double value) {
-  if (std::isnan(value)) return std::monostate{};
-  return value;
-}
-
-record::Cell text(std::string_view value) {
-  if (value.empty()) return std::monostate{};
-  return std::string(value);
-}
 
 struct Curve {
   std::vector<double> x;
@@ -130,13 +123,12 @@ record::Table fit_table(std::span<const NamedFit> fits) {
   for (const NamedFit& named : fits) {
     const Fit& fit = named.fit;
     for (const Estimate& parameter : fit.parameters)
-      table.rows.push_back({text(named.case_name), text(named.curve),
-                            text(fit.name.empty() ? info(fit.model).name : fit.name),
-                            text(parameter.name), text(parameter.unit), number(parameter.estimate),
-                            number(parameter.std_error), number(parameter.ci95_low),
-                            number(parameter.ci95_high), number(fit.r2), number(fit.rmse),
-                            number(fit.n), number(fit.range_low), number(fit.range_high),
-                            text(word(fit.termination))});
+      table.rows.push_back({known(named.case_name), known(named.curve), known(model_name(fit)),
+                            known(parameter.name), known(parameter.unit), known(parameter.estimate),
+                            known(parameter.std_error), known(parameter.ci95_low),
+                            known(parameter.ci95_high), known(fit.r2), known(fit.rmse),
+                            known(fit.n), known(fit.range_low), known(fit.range_high),
+                            known(word(fit.termination))});
   }
   return table;
 }
@@ -149,9 +141,8 @@ record::Table measured_fit_table(std::span<const NamedFit> fits) {
   for (const NamedFit& named : fits)
     for (std::size_t i = 0; i < named.fit.parameters.size(); ++i, ++row) {
       const Fit& fit = named.fit;
-      const std::string law = fit.name.empty() ? std::string(info(fit.model).formula) : fit.law;
-      for (record::Cell cell :
-           {number(fit.excluded), number(fit.effective_size), number(fit.durbin_watson), text(law)})
+      for (record::Cell cell : {known(fit.excluded), known(fit.effective_size),
+                                known(fit.durbin_watson), known(formula_of(fit))})
         table.rows[row].push_back(std::move(cell));
     }
   return table;

@@ -12,7 +12,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/dense.h"
 #include "base/index.h"
 
 namespace palpate::fit {
@@ -89,21 +88,16 @@ void model_curve(std::span<const double> x, Model model, std::span<const double>
 }
 
 // (J^T J)^-1 by the singular values of J with columns of length 1; empty if it lacks full rank.
-std::vector<double> inverse_normal(std::span<const double> jacobian, std::size_t parameters) {
+dense::Matrix inverse_normal(const dense::Rows& jacobian) {
   constexpr double least = 1e-7;  // of the largest singular value
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto count = static_cast<Eigen::Index>(parameters);
-  const Eigen::Index points = static_cast<Eigen::Index>(jacobian.size()) / count;
-  if (points < count) return {};
-  const Eigen::Map<const Rows> slopes(jacobian.data(), points, count);
-  const Eigen::RowVectorXd unit = slopes.colwise().norm().cwiseInverse();
+  if (jacobian.rows() < jacobian.cols()) return {};
+  const Eigen::RowVectorXd unit = jacobian.colwise().norm().cwiseInverse();
   if (!unit.allFinite()) return {};
-  const dense::Svd parts = dense::svd(dense::qr(slopes * unit.asDiagonal()).r);
+  const dense::Svd parts = dense::svd(dense::qr(jacobian * unit.asDiagonal()).r);
   const Eigen::VectorXd& values = parts.values;
-  if (!(values[count - 1] >= least * values[0])) return {};
+  if (!(values[values.size() - 1] >= least * values[0])) return {};
   const Eigen::MatrixXd root = unit.asDiagonal() * parts.v * values.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd inverse = dense::product(root, root.transpose());
-  return {inverse.data(), inverse.data() + inverse.size()};
+  return dense::product(root, root.transpose());
 }
 
 ceres::Solver::Options solver_options(std::size_t points, const Descent& search) {
@@ -151,11 +145,13 @@ Minimum minimise(std::span<const double> y, const CurveAt& curve, std::span<cons
     minimum.parameters.push_back(unknowns[i] * scale[i]);
   if (!search.errors) return minimum;
   minimum.residuals.resize(y.size());
-  minimum.jacobian.resize(y.size() * scale.size());
-  (void)curve(minimum.parameters, minimum.residuals, minimum.jacobian);
+  minimum.jacobian.resize(static_cast<Eigen::Index>(y.size()),
+                          static_cast<Eigen::Index>(scale.size()));
+  (void)curve(minimum.parameters, minimum.residuals,
+              {minimum.jacobian.data(), as_index(minimum.jacobian.size())});
   for (std::size_t i = 0; i < y.size(); ++i) minimum.residuals[i] -= y[i];
   if (minimum.status == Minimum::Status::found)
-    minimum.inverse_normal = inverse_normal(minimum.jacobian, scale.size());
+    minimum.inverse_normal = inverse_normal(minimum.jacobian);
   return minimum;
 }
 
@@ -173,7 +169,7 @@ Minimum minimise(std::span<const double> x, std::span<const double> y, Model mod
 
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using dense::Rows;
 
 // The columns of a curve at some shapes, and the derivatives of the curve.
 class Columns {
@@ -299,38 +295,26 @@ Minimum minimise(std::span<const double> y, const Separable& curve, int max_iter
   return minimise(y, at, start, {.max_iterations = max_iterations});
 }
 
-void replace_parameter(Minimum& minimum, std::size_t i, double value, double slope) {
-  const std::size_t count = minimum.parameters.size();
-  minimum.parameters[i] = value;
-  for (std::size_t j = 0; j < count && !minimum.inverse_normal.empty(); ++j) {
-    minimum.inverse_normal[i * count + j] *= slope;
-    minimum.inverse_normal[j * count + i] *= slope;
-  }
-  for (std::size_t at = i; at < minimum.jacobian.size(); at += count) minimum.jacobian[at] /= slope;
+void replace_parameter(Minimum& minimum, Eigen::Index i, double value, double slope) {
+  minimum.parameters[as_index(i)] = value;
+  minimum.jacobian.col(i) /= slope;
+  if (minimum.inverse_normal.size() == 0) return;
+  minimum.inverse_normal.row(i) *= slope;
+  minimum.inverse_normal.col(i) *= slope;
 }
 
-void add_to_parameter(Minimum& minimum, std::size_t i, std::size_t j, double factor) {
-  const std::size_t count = minimum.parameters.size();
-  for (std::size_t at = 0; at < minimum.jacobian.size(); at += count)
-    minimum.jacobian[at + j] -= factor * minimum.jacobian[at + i];
-  if (minimum.inverse_normal.empty()) return;
-  std::vector<double>& v = minimum.inverse_normal;
-  for (std::size_t k = 0; k < count; ++k) v[i * count + k] += factor * v[j * count + k];
-  for (std::size_t k = 0; k < count; ++k) v[k * count + i] += factor * v[k * count + j];
+void add_to_parameter(Minimum& minimum, Eigen::Index i, Eigen::Index j, double factor) {
+  minimum.jacobian.col(j) -= factor * minimum.jacobian.col(i);
+  if (minimum.inverse_normal.size() == 0) return;
+  minimum.inverse_normal.row(i) += factor * minimum.inverse_normal.row(j);
+  minimum.inverse_normal.col(i) += factor * minimum.inverse_normal.col(j);
 }
 
 void reorder_parameters(Minimum& minimum, std::span<const std::size_t> from) {
-  const std::size_t count = from.size();
   const Minimum before = minimum;
-  for (std::size_t i = 0; i < count; ++i) {
-    minimum.parameters[i] = before.parameters[from[i]];
-    if (before.inverse_normal.empty()) continue;
-    for (std::size_t j = 0; j < count; ++j)
-      minimum.inverse_normal[i * count + j] = before.inverse_normal[from[i] * count + from[j]];
-  }
-  for (std::size_t row = 0; row < before.jacobian.size(); row += count)
-    for (std::size_t i = 0; i < count; ++i)
-      minimum.jacobian[row + i] = before.jacobian[row + from[i]];
+  for (std::size_t i = 0; i < from.size(); ++i) minimum.parameters[i] = before.parameters[from[i]];
+  minimum.jacobian = before.jacobian(Eigen::all, from);
+  if (before.inverse_normal.size() > 0) minimum.inverse_normal = before.inverse_normal(from, from);
 }
 
 std::string ceres_version() { return CERES_VERSION_STRING; }

@@ -17,11 +17,11 @@ struct Minimum {
   Status status = Status::failed;
   std::vector<double> parameters;
   double squares = 0.0;  // sum of squared residuals
-  // (J^T J)^-1 at the minimum, by rows; empty if J lacks full rank or no minimum was found.
-  std::vector<double> inverse_normal;
+  // (J^T J)^-1 at the minimum; empty if J lacks full rank or no minimum was found.
+  dense::Matrix inverse_normal;
   // At the minimum: value_i - y_i, and its derivatives, one row per point; empty if none was found.
   std::vector<double> residuals = {};
-  std::vector<double> jacobian = {};
+  dense::Rows jacobian = {};
 };
 
 // Computes a curve for given parameters: one value per point and, unless `slopes` is empty, the
@@ -82,10 +82,10 @@ struct Separable {
                                int max_iterations);
 
 // Replaces parameter i by `value`, whose derivative with respect to the parameter is `slope`.
-void replace_parameter(Minimum& minimum, std::size_t i, double value, double slope);
+void replace_parameter(Minimum& minimum, Eigen::Index i, double value, double slope);
 
 // Errors of parameter i that has become p_i + factor p_j, to first order.
-void add_to_parameter(Minimum& minimum, std::size_t i, std::size_t j, double factor);
+void add_to_parameter(Minimum& minimum, Eigen::Index i, Eigen::Index j, double factor);
 
 // Parameter k becomes that which was parameter from[k].
 void reorder_parameters(Minimum& minimum, std::span<const std::size_t> from);

@@ -32,22 +32,12 @@ PressRows averaged(const PressRows& rows) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(
       order, [&](std::size_t a, std::size_t b) { return rows.depth[a] < rows.depth[b]; });
-  PressRows mean;
-  mean.low = rows.low;
-  mean.high = rows.high;
-  for (std::size_t k = 0; k < means; ++k) {
-    const std::size_t from = n * k / means;
-    const std::size_t to = n * (k + 1) / means;
-    double depth = 0.0;
-    double force = 0.0;
-    for (std::size_t i = from; i < to; ++i) {
-      depth += rows.depth[order[i]];
-      force += rows.force[order[i]];
-    }
-    mean.depth.push_back(depth / static_cast<double>(to - from));
-    mean.force.push_back(force / static_cast<double>(to - from));
+  std::vector<double> depth, force;
+  for (const std::size_t i : order) {
+    depth.push_back(rows.depth[i]);
+    force.push_back(rows.force[i]);
   }
-  return mean;
+  return {block_means(depth, means), block_means(force, means), rows.low, rows.high};
 }
 
 std::size_t linear_terms(Baseline baseline) {
@@ -106,6 +96,11 @@ class Search {
 };
 
 }  // namespace
+
+std::string with_baseline(Baseline baseline) {
+  static constexpr std::array words{"no baseline", "a force offset", "a force offset and a tilt"};
+  return std::string(", with ") + words[as_index(baseline)];
+}
 
 std::optional<ContactGuess> search_contact(const UnitLaw& law, const PressRows& rows,
                                            Baseline baseline, const SearchLimits& limits) {
@@ -713,9 +708,7 @@ class ContactFit {
         minimum.parameters[0] * choice.guess.factor * law_.unit(result.deepest).force;
     result.drift =
         choice.baseline == Baseline::tilt ? std::abs(minimum.parameters.back() / pressed) : 0.0;
-    static constexpr std::array<const char*, 3> words{"no baseline", "a force offset",
-                                                      "a force offset and a tilt"};
-    fit_.law += ", with " + std::string(words[as_index(choice.baseline)]);
+    fit_.law += with_baseline(choice.baseline);
     fit_.notes.push_back(
         std::to_string(result.before) + (result.before == 1 ? " point lies" : " points lie") +
         " before contact and " + std::to_string(result.beyond) + " beyond, up to a depth of " +

@@ -58,6 +58,8 @@ struct TipForce {
 
 // What is added to the contact force: nothing, a constant force, or a straight line over depth.
 enum class Baseline { none, offset, tilt };
+// `, with a force offset`, behind the formula of a law.
+[[nodiscard]] std::string with_baseline(Baseline baseline);
 
 // A contact law for E* = 1 Pa; no force at depths of 0 and less.
 using UnitLaw = std::function<TipForce(double depth)>;

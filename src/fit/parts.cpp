@@ -115,6 +115,18 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+std::vector<double> block_means(std::span<const double> values, std::size_t blocks) {
+  std::vector<double> means;
+  for (std::size_t k = 0; k < blocks; ++k) {
+    const std::size_t from = values.size() * k / blocks;
+    const std::size_t to = values.size() * (k + 1) / blocks;
+    double sum = 0.0;
+    for (std::size_t i = from; i < to; ++i) sum += values[i];
+    means.push_back(sum / static_cast<double>(to - from));
+  }
+  return means;
+}
+
 double noise_of(std::span<const double> y) {
   std::vector<double> bends;
   for (std::size_t i = 2; i < y.size(); ++i)

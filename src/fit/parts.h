@@ -110,6 +110,9 @@ struct Misfit {
 // The median; of an even number of values the larger of the two in the middle. At least one.
 [[nodiscard]] double median(std::vector<double> values);
 
+// The means of neighbouring values in so many blocks, which are no more than the values.
+[[nodiscard]] std::vector<double> block_means(std::span<const double> values, std::size_t blocks);
+
 // The standard deviation of white noise in y, from its second differences (median, so that steps
 // do not count); 0 for fewer than 5 values.
 [[nodiscard]] double noise_of(std::span<const double> y);

@@ -48,13 +48,8 @@ Eigen::VectorXd over_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
   std::vector<Eigen::Index> columns;
   for (Eigen::Index i = 0; i < a.cols(); ++i)
     if (free[static_cast<std::size_t>(i)] != 0) columns.push_back(i);
-  Eigen::MatrixXd some(a.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    some.col(static_cast<Eigen::Index>(k)) = a.col(columns[k]);
-  const Eigen::VectorXd solved = dense::least_squares(some, b);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(a.cols());
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    all[columns[k]] = solved[static_cast<Eigen::Index>(k)];
+  all(columns) = dense::least_squares(a(Eigen::all, columns), b);
   return all;
 }
 
@@ -251,7 +246,7 @@ void finish_terms(Minimum& minimum, std::size_t lead) {
   reorder_parameters(minimum, from);
   for (std::size_t i = lead + 1; i < count; i += 2) {
     const double tau = std::exp(minimum.parameters[i]);
-    replace_parameter(minimum, i, tau, tau);
+    replace_parameter(minimum, static_cast<Eigen::Index>(i), tau, tau);
   }
 }
 
@@ -564,7 +559,7 @@ Fit fit_fractional(std::span<const double> x, std::span<const double> y, Fractio
   std::vector<double> scale(count, 1.0);
   if (minimum.status != Minimum::Status::failed) {
     const double beta = exponent_of(minimum.parameters.back());
-    replace_parameter(minimum, count - 1, beta, beta * (1.0 - beta));
+    replace_parameter(minimum, minimum.jacobian.cols() - 1, beta, beta * (1.0 - beta));
     if (zener) {
       const double tau = std::exp(minimum.parameters[2]);
       replace_parameter(minimum, 2, tau, tau);

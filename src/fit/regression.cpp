@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "base/dense.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "base/numerics.h"
@@ -44,7 +43,6 @@ CurvePoints usable(std::span<const double> x, std::span<const double> y, const O
 // From (J^T J)^-1: covariance, standard errors and intervals.
 void set_errors(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
   const std::size_t count = fit.parameters.size();
-  const std::span<const double> scale = scaling.parameters;
   double degrees = fit.n - static_cast<double>(count);
   if (scaling.residuals == Residuals::correlated) {
     const std::span<const double> y(scaling.y);
@@ -55,15 +53,14 @@ void set_errors(Fit& fit, const Minimum& minimum, const Scaling& scaling) {
     fit.covariance = std::move(found.covariance);
     degrees = found.degrees;
   } else {
-    for (const double each : minimum.inverse_normal)
-      fit.covariance.push_back(each * minimum.squares / degrees);
+    fit.covariance = minimum.inverse_normal * minimum.squares / degrees;
   }
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = 0; j < count; ++j) fit.covariance[i * count + j] *= scale[i] * scale[j];
+  const Eigen::Map<const Eigen::VectorXd> scale(scaling.parameters.data(), fit.covariance.rows());
+  fit.covariance.array() *= (scale * scale.transpose()).array();
   const double t = numerics::student_t_quantile(0.975, degrees);
   for (std::size_t i = 0; i < count; ++i) {
     Estimate& parameter = fit.parameters[i];
-    parameter.std_error = std::sqrt(fit.covariance[i * count + i]);
+    parameter.std_error = std::sqrt(fit.covariance.diagonal()[static_cast<Eigen::Index>(i)]);
     parameter.ci95_low = parameter.estimate - t * parameter.std_error;
     parameter.ci95_high = parameter.estimate + t * parameter.std_error;
   }
@@ -125,7 +122,7 @@ const std::vector<Trial>& trials(std::span<const double> x, Model model) {
 Termination termination_of(const Minimum& minimum) {
   if (minimum.status == Minimum::Status::failed) return Termination::failed;
   if (minimum.status == Minimum::Status::out_of_iterations) return Termination::not_converged;
-  return minimum.inverse_normal.empty() ? Termination::undetermined : Termination::converged;
+  return minimum.inverse_normal.size() == 0 ? Termination::undetermined : Termination::converged;
 }
 
 }  // namespace
@@ -166,12 +163,16 @@ std::optional<std::vector<double>> initial_guess(std::span<const double> x,
 }
 
 double r_squared(std::span<const double> y, double squares) {
-  double mean = 0.0;
-  for (const double each : y) mean += each;
-  mean /= static_cast<double>(y.size());
-  double total = 0.0;
-  for (const double each : y) total += (each - mean) * (each - mean);
+  const Eigen::Map<const Eigen::ArrayXd> all(y.data(), static_cast<Eigen::Index>(y.size()));
+  const double total = (all - all.mean()).square().sum();
   return total > 0.0 ? 1.0 - squares / total : Estimate::unknown;
+}
+
+std::string model_name(const Fit& fit) {
+  return fit.name.empty() ? std::string(info(fit.model).name) : fit.name;
+}
+std::string formula_of(const Fit& fit) {
+  return fit.name.empty() ? std::string(info(fit.model).formula) : fit.law;
 }
 
 void need_points(const std::string& model, std::size_t needed, std::size_t usable,

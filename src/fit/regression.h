@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/dense.h"
 #include "base/words.h"
 
 namespace palpate::fit {
@@ -96,7 +97,7 @@ struct Fit {
   Model model = Model::logarithmic;
   std::string name = {};  // of a curve that is not in models(): `hertz`, `prony`; empty otherwise
   std::vector<Estimate> parameters = {};  // in the order of info(model)
-  std::vector<double> covariance = {};    // of the estimates, by rows; empty if unknown
+  dense::Matrix covariance = {};          // of the estimates; empty if unknown
   double r2 = Estimate::unknown;          // 1 - SSE / SST about the mean; NaN if y is constant
   double rmse = Estimate::unknown;        // sqrt(SSE / n), in the unit of y
   int n = 0;                              // points used
@@ -113,6 +114,10 @@ struct Fit {
   std::vector<std::string> notes = {};     // sentences: what was excluded and what was decided
   std::vector<std::string> warnings = {};  // sentences: why the estimates may be wrong
 };
+
+// Its name and formula, which a curve that is not in models() has of its own.
+[[nodiscard]] std::string model_name(const Fit& fit);
+[[nodiscard]] std::string formula_of(const Fit& fit);
 
 struct Options {
   std::string x_unit = {};  // for the parameters' units, as returned by column_unit

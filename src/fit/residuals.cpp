@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "base/dense.h"
 #include "base/index.h"
 #include "base/numerics.h"
 #include "base/text.h"
@@ -15,8 +14,8 @@
 namespace palpate::fit {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using dense::Matrix;
+using dense::Rows;
 
 constexpr double largest_rho = 0.999;
 
@@ -286,12 +285,10 @@ double half_width(const std::vector<Process>& all, Eigen::Index i,
 // The covariance that rounding to steps adds: rows of one step in a row share one error, uniform
 // over the step. Empty where the values are not multiples of a step, or differ from row to row.
 //                                                                       docs/theory.md [rounding]
-std::vector<double> quantised_covariance(std::span<const double> values,
-                                         std::span<const double> jacobian,
-                                         std::span<const double> inverse) {
+Matrix quantised_covariance(std::span<const double> values, const Rows& jacobian,
+                            const Matrix& inverse) {
   const std::size_t n = values.size();
-  const std::size_t p = n == 0 ? 0 : jacobian.size() / n;
-  if (n < 20 || inverse.size() != p * p) return {};
+  if (n < 20) return {};
   std::vector<double> levels(values.begin(), values.end());
   std::ranges::sort(levels);
   const double slack = 1e-9 * std::max(std::abs(levels.front()), std::abs(levels.back()));
@@ -307,35 +304,26 @@ std::vector<double> quantised_covariance(std::span<const double> values,
     const double steps = (levels[i] - levels[i - 1]) / step;
     if (std::abs(steps - std::round(steps)) > 0.05 * std::max(1.0, steps)) return {};
   }
-  const Matrix normal = Eigen::Map<const Matrix>(inverse.data(), static_cast<Eigen::Index>(p),
-                                                 static_cast<Eigen::Index>(p));  // symmetric
-  Matrix sum = Matrix::Zero(normal.rows(), normal.cols());
+  Matrix sum = Matrix::Zero(inverse.rows(), inverse.cols());
   for (std::size_t i = 0; i < n;) {
-    Eigen::VectorXd run = Eigen::VectorXd::Zero(normal.rows());
+    Eigen::VectorXd run = Eigen::VectorXd::Zero(inverse.rows());
     const std::size_t first = i;
     for (; i < n && std::abs(values[i] - values[first]) <= slack; ++i)
-      for (std::size_t k = 0; k < p; ++k) run[static_cast<Eigen::Index>(k)] += jacobian[i * p + k];
+      run += jacobian.row(static_cast<Eigen::Index>(i)).transpose();
     sum += run * run.transpose();
   }
-  const Matrix covariance =
-      step * step / 12.0 * dense::product(dense::product(normal, sum), normal);
-  return {covariance.data(), covariance.data() + covariance.size()};
+  return step * step / 12.0 * dense::product(dense::product(inverse, sum), inverse);
 }
 
 }  // namespace
 
 std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
-                                              std::span<const double> jacobian,
-                                              std::size_t unknowns) {
+                                              const Rows& jacobian) {
   const auto n = static_cast<Eigen::Index>(residuals.size());
-  const auto p = static_cast<Eigen::Index>(unknowns);
-  if (n < 20 || n <= 2 * p + 2 || jacobian.size() != residuals.size() * unknowns)
-    return std::nullopt;
+  const Eigen::Index p = jacobian.cols();
+  if (n < 20 || n <= 2 * p + 2) return std::nullopt;
   Rows rows(n, p + 1);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index k = 0; k < p; ++k) rows(i, k) = jacobian[as_index(i * p + k)];
-    rows(i, p) = residuals[as_index(i)];
-  }
+  rows << jacobian, Eigen::Map<const Eigen::VectorXd>(residuals.data(), n);
   const Eigen::RowVectorXd scale = rows.colwise().norm();
   if (!(scale.minCoeff() > 0.0) || !scale.allFinite()) return std::nullopt;
   rows.array().rowwise() /= scale.array();
@@ -366,35 +354,31 @@ std::optional<ResidualErrors> autocorrelation(std::span<const double> residuals,
   for (Eigen::Index i = 0; i < p; ++i)
     wider[i] = half_width(all, i, students) / (t * std::sqrt(sandwich(i, i))) * scale[p];
   sandwich = wider.asDiagonal() * sandwich * wider.asDiagonal();
-  found.covariance.resize(unknowns * unknowns);
-  for (Eigen::Index i = 0; i < p; ++i)
-    for (Eigen::Index k = 0; k < p; ++k)
-      found.covariance[as_index(i * p + k)] = sandwich(i, k) / (scale[i] * scale[k]);
+  const Eigen::RowVectorXd own = scale.head(p);
+  found.covariance = sandwich.array() / (own.transpose() * own).array();
   return found;
 }
 
-ResidualErrors errors_of(std::span<const double> residuals, std::span<const double> jacobian,
-                         std::span<const double> inverse,
-                         std::span<const std::span<const double>> records) {
-  const std::size_t n = residuals.size();
-  const std::size_t p = jacobian.size() / n;
-  double squares = 0.0;
-  for (const double each : residuals) squares += each * each;
-  ResidualErrors white{.degrees = static_cast<double>(n - p), .covariance = {}};
-  for (const double each : inverse) white.covariance.push_back(each * squares / white.degrees);
+ResidualErrors errors_of(std::span<const double> residuals, const Rows& jacobian,
+                         const Matrix& inverse, std::span<const std::span<const double>> records) {
+  const Eigen::Index p = jacobian.cols();
+  const double squares =
+      Eigen::Map<const Eigen::VectorXd>(residuals.data(), jacobian.rows()).squaredNorm();
+  const auto degrees = static_cast<double>(jacobian.rows() - p);
+  const ResidualErrors white{.degrees = degrees, .covariance = inverse * squares / degrees};
   ResidualErrors found = white;
-  if (squares > 1e-18 * static_cast<double>(n))
-    if (auto correlated = autocorrelation(residuals, jacobian, p)) found = std::move(*correlated);
-  std::size_t from = 0;
+  if (squares > 1e-18 * static_cast<double>(residuals.size()))
+    if (auto correlated = autocorrelation(residuals, jacobian)) found = std::move(*correlated);
+  Eigen::Index from = 0;
   for (const std::span<const double> values : records) {
-    const auto rounded =
-        quantised_covariance(values, jacobian.subspan(from * p, values.size() * p), inverse);
-    for (std::size_t i = 0; i < rounded.size(); ++i) found.covariance[i] += rounded[i];
-    from += values.size();
+    const auto count = static_cast<Eigen::Index>(values.size());
+    const Matrix rounded = quantised_covariance(values, jacobian.middleRows(from, count), inverse);
+    if (rounded.size() > 0) found.covariance += rounded;
+    from += count;
   }
   double log_sum = 0.0;
-  for (std::size_t i = 0; i < p * p && squares > 0.0; i += p + 1)
-    log_sum += std::log(found.covariance[i] / white.covariance[i]);
+  for (Eigen::Index i = 0; i < p && squares > 0.0; ++i)
+    log_sum += std::log(found.covariance(i, i) / white.covariance(i, i));
   found.factor = std::exp(log_sum / static_cast<double>(p));
   return found;
 }
@@ -402,16 +386,11 @@ ResidualErrors errors_of(std::span<const double> residuals, std::span<const doub
 // Durbin-Watson statistic and runs test.
 
 double durbin_watson(std::span<const double> residuals) {
-  double steps = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    squares += residuals[i] * residuals[i];
-    if (i > 0) {
-      const double step = residuals[i] - residuals[i - 1];
-      steps += step * step;
-    }
-  }
-  return squares > 0.0 ? steps / squares : 2.0;
+  const Eigen::Map<const Eigen::VectorXd> all(residuals.data(),
+                                              static_cast<Eigen::Index>(residuals.size()));
+  const double squares = all.squaredNorm();
+  const Eigen::Index steps = all.size() - 1;
+  return squares > 0.0 ? (all.tail(steps) - all.head(steps)).squaredNorm() / squares : 2.0;
 }
 
 double runs_z(std::span<const double> residuals) {

@@ -382,7 +382,7 @@ class UniaxialFit {
     secant.ci95_low = secant.estimate - 1.96 * secant.std_error;
     secant.ci95_high = secant.estimate + 1.96 * secant.std_error;
     fit_.parameters.push_back(secant);
-    fit_.covariance.clear();
+    fit_.covariance = {};
   }
 
   [[nodiscard]] double parabola_at_end() const {
@@ -466,10 +466,10 @@ class UniaxialFit {
     const Estimate& one = fit_.parameters[0];
     const double t = (one.ci95_high - one.estimate) / one.std_error;
     const auto finish = [&](Estimate& made, const std::array<double, 6>& slope, double factor) {
-      double variance = fit_.covariance.empty() ? Estimate::unknown : 0.0;
-      for (std::size_t i = 0; i < 6 && !fit_.covariance.empty(); ++i)
-        for (std::size_t j = 0; j < 6; ++j)
-          variance += slope[i] * slope[j] * fit_.covariance[6 * i + j];
+      double variance = fit_.covariance.size() == 0 ? Estimate::unknown : 0.0;
+      for (Eigen::Index i = 0; i < fit_.covariance.rows(); ++i)
+        for (Eigen::Index j = 0; j < fit_.covariance.cols(); ++j)
+          variance += slope[as_index(i)] * slope[as_index(j)] * fit_.covariance(i, j);
       made.std_error = factor * std::sqrt(variance < 0.0 ? 0.0 : variance);
       made.ci95_low = made.estimate - t * made.std_error;
       made.ci95_high = made.estimate + t * made.std_error;
@@ -495,7 +495,7 @@ class UniaxialFit {
     }
     finish(young, of_young, 1.0);
     fit_.parameters.insert(fit_.parameters.begin(), young);
-    fit_.covariance.clear();
+    fit_.covariance = {};
   }
 
   // Exponents to begin with.

@@ -222,20 +222,9 @@ class ViscousFit {
       depth_[i] = (depth_[i] - low_) / range_;
       force_[i] /= scale_;
     }
-    const std::size_t n = time_.size();
-    const std::size_t count = std::min(n, most_knots);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t from = n * k / count;
-      const std::size_t to = n * (k + 1) / count;
-      double t = 0.0;
-      double h = 0.0;
-      for (std::size_t i = from; i < to; ++i) {
-        t += time_[i];
-        h += depth_[i];
-      }
-      knots_.time.push_back(t / static_cast<double>(to - from));
-      knots_.depth.push_back(h / static_cast<double>(to - from));
-    }
+    const std::size_t count = std::min(time_.size(), most_knots);
+    knots_.time = block_means(time_, count);
+    knots_.depth = block_means(depth_, count);
     knots_.deepest = as_index(std::ranges::max_element(knots_.depth) - knots_.depth.begin());
     for (const double t : time_) {
       const auto right = std::clamp(std::ranges::upper_bound(knots_.time, t),
@@ -256,7 +245,7 @@ class ViscousFit {
     fit_.law = std::string("F = 4 sqrt(R)/(3 (1-nu^2)) int E(t-s) d(h-h_0)^(3/2), E(t) = ") +
                (power ? "E_1 (t/1 s)^-beta" : "E_inf + (E_0 - E_inf) e^(-t/tau)") +
                (in_ < time_.size() ? ", Lee and Radok 1960, Ting 1966" : ", Lee and Radok 1960") +
-               (offset ? ", with a force offset" : ", with no baseline");
+               with_baseline(offset ? Baseline::offset : Baseline::none);
     if (power)
       fit_.parameters = {{.name = "E_1", .unit = "kPa"}, {.name = "beta"}};
     else

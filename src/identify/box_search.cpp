@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/dense.h"
+#include "base/index.h"
 #include "base/text.h"
 #include "fit/ceres_fit.h"
 
@@ -105,15 +105,17 @@ BoxMinimum evaluate_in_box(const BoxProblem& problem, std::span<const double> u,
   std::vector<double> moved;
   for (const double each : u) moved.push_back(each + shift);
   std::vector<double> values(problem.measured.size());
-  if (want == Want::slopes) at.jacobian.resize(values.size() * u.size());
-  at.found = curve(moved, values, at.jacobian);
+  if (want == Want::slopes)
+    at.jacobian.resize(static_cast<Eigen::Index>(values.size()),
+                       static_cast<Eigen::Index>(u.size()));
+  at.found = curve(moved, values, {at.jacobian.data(), as_index(at.jacobian.size())});
   at.evaluations = curve.evaluations();
   if (!at.found) return at;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double residual = values[i] - curve.measured()[i];
     at.squares += residual * residual;
   }
-  at.found = std::ranges::all_of(at.jacobian, [](double slope) { return std::isfinite(slope); });
+  at.found = at.jacobian.allFinite();
   return at;
 }
 
@@ -229,9 +231,9 @@ class Side {
   }
 
   // The end on the side `sign` of the best fit; `guess` is the half width of Student's interval.
-  std::optional<double> end(double sign, double guess, std::span<const double> covariance,
+  std::optional<double> end(double sign, double guess, const dense::Matrix& covariance,
                             double sigma, double t) {
-    const std::size_t n = best_.u.size();
+    const auto with = covariance.col(static_cast<Eigen::Index>(i_));
     const double room = sign > 0.0 ? 1.0 - best_.u[i_] : best_.u[i_];
     // The root of the likelihood ratio is nearly linear in the distance.
     const auto root = [&](double distance, std::vector<double>& start) {
@@ -240,11 +242,11 @@ class Side {
     };
     std::vector<double> start = best_.u;
     const auto predict = [&](double distance) {  // the other unknowns in a linear model
-      const double own = covariance[i_ * n + i_];
-      for (std::size_t j = 0; j < n; ++j)
+      const double own = with[static_cast<Eigen::Index>(i_)];
+      for (std::size_t j = 0; j < start.size(); ++j)
         if (j != i_ && own > 0.0)
-          start[j] =
-              std::clamp(best_.u[j] + sign * distance * covariance[i_ * n + j] / own, 0.0, 1.0);
+          start[j] = std::clamp(
+              best_.u[j] + sign * distance * with[static_cast<Eigen::Index>(j)] / own, 0.0, 1.0);
     };
     double near = 0.0;
     double near_root = 0.0;
@@ -302,10 +304,10 @@ void finish(Profile& profile, const BoxMinimum& best, std::size_t i) {
 }  // namespace
 
 Profile profile(const BoxProblem& problem, const BoxMinimum& best, std::size_t i,
-                std::span<const double> covariance, double sigma, double t) {
+                const dense::Matrix& covariance, double sigma, double t) {
   Profile found;
   Side side(problem, best, i, found);
-  const double own = covariance[i * best.u.size() + i];
+  const double own = covariance.diagonal()[static_cast<Eigen::Index>(i)];
   const double guess = own > 0.0 ? t * std::sqrt(own) : 0.05;
   found.low = side.end(-1.0, guess, covariance, sigma, t);
   found.high = side.end(1.0, guess, covariance, sigma, t);
@@ -334,13 +336,6 @@ constexpr double loose_half_width = 0.5;  // of the box, at 95 %
 constexpr double least_sigma = 1e-5;
 constexpr double least_slope = 1e-6;  // of the steepest direction
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-dense::Svd svd_of(std::span<const double> jacobian, std::size_t unknowns) {
-  const auto rows = static_cast<Eigen::Index>(jacobian.size() / unknowns);
-  const Eigen::Map<const Matrix> slopes(jacobian.data(), rows, static_cast<Eigen::Index>(unknowns));
-  return dense::svd(slopes);
-}
-
 // d ln p / du, and dp / du with p in the unknown's unit.
 double log_slope(const Unknown& unknown, double u) { return unknown.slope(u) / unknown.value(u); }
 double shown_slope(const Unknown& unknown, double u) { return unknown.shown(unknown.slope(u)); }
@@ -352,28 +347,25 @@ std::string with_exponent(const std::string& text, double exponent) {
 
 }  // namespace
 
-std::vector<double> determined_directions(std::span<const double> jacobian, std::size_t unknowns) {
-  const dense::Svd svd = svd_of(jacobian, unknowns);
+dense::Rows determined_directions(const dense::Rows& jacobian) {
+  const dense::Svd svd = dense::svd(jacobian);
   const Eigen::VectorXd& sizes = svd.values;
-  const auto count = (sizes.array() > least_slope * sizes[0]).count();
-  const Matrix directions = svd.u.leftCols(count);
-  return {directions.data(), directions.data() + directions.size()};
+  return svd.u.leftCols((sizes.array() > least_slope * sizes[0]).count());
 }
 
-BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
-                     std::span<const double> noise, double t, int weakest) {
-  const auto n = static_cast<Eigen::Index>(unknowns);
-  const dense::Svd svd = svd_of(jacobian, unknowns);
-  const auto count = static_cast<Eigen::Index>(std::lround(std::sqrt(noise.size())));
-  const Eigen::Map<const Matrix> along(noise.data(), count, count);
+BoxErrors box_errors(const dense::Rows& jacobian, const dense::Matrix& noise, double t,
+                     int weakest) {
+  const Eigen::Index n = jacobian.cols();
+  const dense::Svd svd = dense::svd(jacobian);
+  const Eigen::Index count = noise.rows();
   BoxErrors errors;
-  errors.inseparable.assign(unknowns, 0);
+  errors.inseparable.assign(as_index(n), 0);
   Eigen::MatrixXd response = Eigen::MatrixXd::Zero(n, count);  // of u to the directions
   std::vector<Eigen::VectorXd> loose;
   for (Eigen::Index k = 0; k < n; ++k) {
     const double slope = svd.values[k];
     if (k >= n - weakest || k >= count ||
-        t * std::max(std::sqrt(along(k, k)), least_sigma) > loose_half_width * slope) {
+        t * std::max(std::sqrt(noise(k, k)), least_sigma) > loose_half_width * slope) {
       loose.emplace_back(svd.v.col(k));
       continue;
     }
@@ -381,18 +373,16 @@ BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
     response.col(k) = svd.v.col(k) / slope;
   }
   const Eigen::MatrixXd back = response.transpose();
-  const Eigen::MatrixXd covariance = dense::product(dense::product(response, along), back);
-  const Eigen::MatrixXd of_one = dense::product(response, back);
+  errors.covariance = dense::product(dense::product(response, noise), back);
+  errors.of_one = dense::product(response, back);
   for (const Eigen::VectorXd& direction : loose) {
     errors.loose.emplace_back(direction.data(), direction.data() + n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double own = t * std::sqrt(covariance(i, i));
+      const double own = t * std::sqrt(errors.covariance(i, i));
       const double moved = loose_half_width * std::abs(direction[i]);
       if (moved > std::max(own, 1e-3)) errors.inseparable[as_index(i)] = 1;
     }
   }
-  errors.covariance.assign(covariance.data(), covariance.data() + covariance.size());
-  errors.of_one.assign(of_one.data(), of_one.data() + of_one.size());
   return errors;
 }
 

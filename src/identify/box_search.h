@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/dense.h"
 #include "identify/identify.h"
 
 namespace palpate::identify {
@@ -27,9 +28,9 @@ struct BoxProblem {
 struct BoxMinimum {
   bool found = false;
   std::vector<double> u;
-  double squares = 0.0;          // sum of the squared weighted residuals
-  std::vector<double> jacobian;  // their derivatives over u, one row per point; held unknowns too
-  int evaluations = 0;           // of the curve
+  double squares = 0.0;  // sum of the squared weighted residuals
+  dense::Rows jacobian;  // their derivatives over u, one row per point; held unknowns too
+  int evaluations = 0;   // of the curve
 };
 
 // Searches a local minimum from `start` by Levenberg-Marquardt within the box. Unknowns with a
@@ -66,9 +67,9 @@ struct Profile {
 
 // The interval of unknown `i` ends where (squares - best.squares) / sigma^2 = t^2, on each side of
 // the best fit. For normal noise of unknown variance and a linear model it is Student's interval.
-// `covariance` of u, row by row, gives the first guesses.                docs/theory.md [profile]
+// `covariance` of u gives the first guesses.                             docs/theory.md [profile]
 [[nodiscard]] Profile profile(const BoxProblem& problem, const BoxMinimum& best, std::size_t i,
-                              std::span<const double> covariance, double sigma, double t);
+                              const dense::Matrix& covariance, double sigma, double t);
 
 // For an inseparable unknown: nine points, evenly over the box, without a search for the ends.
 [[nodiscard]] Profile profile_over_box(const BoxProblem& problem, const BoxMinimum& best,
@@ -79,27 +80,26 @@ struct Profile {
 // loose direction changes it by more than its error. The covariance is that of the directions which
 // are determined.
 struct BoxErrors {
-  std::vector<double> covariance;          // of u, row by row
-  std::vector<double> of_one;              // the same of independent residuals of variance 1
+  dense::Matrix covariance;                // of u
+  dense::Matrix of_one;                    // the same of independent residuals of variance 1
   std::vector<char> inseparable;           // one per unknown
   std::vector<std::vector<double>> loose;  // unit vectors
   int determined = 0;                      // number of directions that are not loose
 
   [[nodiscard]] double variance(std::size_t i, std::size_t j) const {
-    return covariance[i * inseparable.size() + j];
+    return covariance(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i));
   }
 };
 // `jacobian`: derivatives of the weighted residuals with respect to u, one row per point. `noise`:
-// covariance of these residuals along the determined directions, by rows. `t`: Student's quantile.
-// The `weakest` directions count as loose in any case.
+// covariance of these residuals along the determined directions. `t`: Student's quantile. The
+// `weakest` directions count as loose in any case.
 //                                       docs/theory.md [interval], [loose], [sample_size]
-[[nodiscard]] BoxErrors box_errors(std::span<const double> jacobian, std::size_t unknowns,
-                                   std::span<const double> noise, double t, int weakest = 0);
+[[nodiscard]] BoxErrors box_errors(const dense::Rows& jacobian, const dense::Matrix& noise,
+                                   double t, int weakest = 0);
 
 // The directions of the residuals, of length 1 and one row per point, along which the unknowns of a
 // jacobian change them by more than 1e-6 of the steepest.
-[[nodiscard]] std::vector<double> determined_directions(std::span<const double> jacobian,
-                                                        std::size_t unknowns);
+[[nodiscard]] dense::Rows determined_directions(const dense::Rows& jacobian);
 
 // The combination of the inseparable unknowns that the data determine, if there is just one.
 [[nodiscard]] std::optional<Combination> combination(const BoxErrors& errors,

@@ -36,16 +36,13 @@ double median_spacing(std::vector<double> x) {
   return steps.empty() ? 0.0 : fit::median(std::move(steps));
 }
 
-// One pair of data and scenario within a search.
-struct Part {
+// One pair of data and scenario within a search; `found` is of this pair alone.
+struct Part : PreparedCurve {
   const scenario::Family* family = nullptr;
   std::vector<Unknown> unknowns;   // those of this pair
   std::vector<std::size_t> index;  // of each, among all unknowns
-  std::unique_ptr<ScenarioCurve> curve;
-  std::size_t from = 0, to = 0;  // its points among all
-  double rows_each = 1.0;
+  std::size_t from = 0, to = 0;    // its points among all
   DefaultBody body;
-  Identification found;  // of this pair alone
 
   template <class T>
   [[nodiscard]] std::vector<T> own(std::span<const T> all) const {
@@ -112,26 +109,15 @@ class Search {
       part.unknowns.push_back(unknowns_[i]);
       part.index.push_back(i);
     }
-    PreparedCurve prepared =
+    static_cast<PreparedCurve&>(part) =
         prepare_curve(*pair.measured, *pair.family, part.unknowns, options_.noise);
-    Identification& found = part.found;
-    found.kind = prepared.curve->kind();
-    found.given = prepared.given;
-    found.taken = prepared.curve->fixed().solver.model;
-    found.worst_error = prepared.worst_error;
-    found.excluded = prepared.excluded;
-    found.notes = std::move(prepared.notes);
-    found.x = std::move(prepared.x);
-    found.measured = std::move(prepared.measured);
-    part.rows_each = prepared.rows_each;
-    part.curve = std::move(prepared.curve);
-    found.closed_form = part.curve->has_formula();
+    const Identification& found = part.found;
     part.from = found_.x.size();
     found_.x.insert(found_.x.end(), found.x.begin(), found.x.end());
     found_.measured.insert(found_.measured.end(), found.measured.begin(), found.measured.end());
     part.to = found_.x.size();
     found_.excluded += found.excluded;
-    weights_.insert(weights_.end(), prepared.weights.begin(), prepared.weights.end());
+    weights_.insert(weights_.end(), part.weights.begin(), part.weights.end());
   }
 
   [[nodiscard]] bool joint() const { return parts_.size() > 1; }
@@ -223,7 +209,7 @@ class Search {
     const double degrees = static_cast<double>(found_.x.size() - n);
     noise_ = std::max(std::sqrt(best_.squares / degrees), 1e-12);
     judge_residuals();
-    errors_ = box_errors(best_.jacobian, n, along_, t_);
+    errors_ = box_errors(best_.jacobian, along_, t_);
     std::vector<char> moving(n, 1);
     for (std::size_t i = 0; i < n; ++i) {
       Identified one;
@@ -269,7 +255,7 @@ class Search {
                                           rounded_text(std::max(1.0, found_.effective_size), 3)
                                     : std::string()) +
                                ": they have no numbers of their own");
-        errors_ = box_errors(best_.jacobian, n, along_, t_, 1);
+        errors_ = box_errors(best_.jacobian, along_, t_, 1);
         for (std::size_t k = 0; k < n; ++k) {
           Identified& one = found_.unknowns[k];
           one.inseparable = errors_.inseparable[k] != 0;
@@ -298,12 +284,11 @@ class Search {
 
   // J^T (F w) of the rows of a pair, and sum (F w)^2, where F is its curve and w the weights.
   [[nodiscard]] std::pair<Eigen::VectorXd, double> changes_of(const Part& part) const {
-    const std::size_t n = unknowns_.size();
-    Eigen::VectorXd along = Eigen::VectorXd::Zero(as_signed(n));
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(as_signed(unknowns_.size()));
     double size = 1e-300;
     for (std::size_t row = part.from; row < part.to; ++row) {
       const double weighted = found_.model[row] * weights_[row];
-      along += weighted * Eigen::Map<const Eigen::VectorXd>(&best_.jacobian[row * n], as_signed(n));
+      along += weighted * best_.jacobian.row(as_signed(row)).transpose();
       size += weighted * weighted;
     }
     return {along, size};
@@ -344,26 +329,23 @@ class Search {
   // What the residuals say of the errors along the directions of the box that a jacobian
   // determines, and of values rounded to steps.
   //                       docs/theory.md [correlated], [covariance], [sample_size], [rounding]
-  [[nodiscard]] fit::ResidualErrors errors_along(std::span<const double> jacobian,
-                                                 std::size_t unknowns) const {
-    const std::size_t n = found_.x.size();
+  [[nodiscard]] fit::ResidualErrors errors_along(const dense::Rows& jacobian) const {
     std::vector<double> scaled;
-    for (std::size_t i = 0; i < n; ++i) scaled.push_back(found_.measured[i] * weights_[i]);
+    for (std::size_t i = 0; i < weights_.size(); ++i)
+      scaled.push_back(found_.measured[i] * weights_[i]);
     std::vector<std::span<const double>> records;
     for (const Part& part : parts_)
       records.emplace_back(scaled.data() + part.from, part.to - part.from);
-    const std::vector<double> directions = determined_directions(jacobian, unknowns);
-    const std::size_t count = directions.size() / n;
-    std::vector<double> inverse(count * count, 0.0);
-    for (std::size_t i = 0; i < count; ++i) inverse[i * count + i] = 1.0;  // of length 1
-    return fit::errors_of(residuals_, directions, inverse, records);
+    const dense::Rows directions = determined_directions(jacobian);  // of length 1
+    const Eigen::Index count = directions.cols();
+    return fit::errors_of(residuals_, directions, dense::Matrix::Identity(count, count), records);
   }
 
   void judge_residuals() {
     for (std::size_t i = 0; i < found_.x.size(); ++i)
       residuals_.push_back((found_.model[i] - found_.measured[i]) * weights_[i]);
     systematic_ = fit::systematic(residuals_);  // not by chance
-    fit::ResidualErrors errors = errors_along(best_.jacobian, unknowns_.size());
+    fit::ResidualErrors errors = errors_along(best_.jacobian);
     along_ = std::move(errors.covariance);
     factor_ = std::max(errors.factor, 1.0);
     found_.rho = errors.rho;
@@ -379,21 +361,15 @@ class Search {
     for (std::size_t i = 0; i < n; ++i)
       if (moving[i] != 0) places.push_back(i);
     BoxErrors all;
-    all.covariance = all.of_one = std::vector<double>(n * n, 0.0);
+    all.covariance = all.of_one = dense::Matrix::Zero(as_signed(n), as_signed(n));
     all.inseparable.assign(n, 0);
     if (places.empty()) return all;
-    std::vector<double> slopes;
-    for (std::size_t row = 0; row < found_.x.size(); ++row)
-      for (const std::size_t i : places) slopes.push_back(best_.jacobian[row * n + i]);
-    const BoxErrors some =
-        box_errors(slopes, places.size(), errors_along(slopes, places.size()).covariance, t_);
-    for (std::size_t a = 0; a < places.size(); ++a) {
+    const dense::Rows slopes = best_.jacobian(Eigen::all, places);
+    const BoxErrors some = box_errors(slopes, errors_along(slopes).covariance, t_);
+    all.covariance(places, places) = some.covariance;
+    all.of_one(places, places) = some.of_one;
+    for (std::size_t a = 0; a < places.size(); ++a)
       all.inseparable[places[a]] = some.inseparable[a];
-      for (std::size_t b = 0; b < places.size(); ++b) {
-        all.covariance[places[a] * n + places[b]] = some.covariance[a * places.size() + b];
-        all.of_one[places[a] * n + places[b]] = some.of_one[a * places.size() + b];
-      }
-    }
     for (const std::vector<double>& direction : some.loose) {
       all.loose.emplace_back(n, 0.0);
       for (std::size_t a = 0; a < places.size(); ++a) all.loose.back()[places[a]] = direction[a];
@@ -442,15 +418,15 @@ class Search {
   }
 
   void profiles() {
-    const std::size_t n = unknowns_.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       Identified& one = found_.unknowns[i];
       begin("interval of " + one.unknown.name(), i + 1);
       // The standard deviation of independent residuals that would give this unknown its error.
-      const double sigma =
-          one.inseparable || one.at_bound
-              ? noise_ * std::sqrt(factor_)
-              : std::max(std::sqrt(errors_.variance(i, i) / errors_.of_one[i * n + i]), 1e-12);
+      const double sigma = one.inseparable || one.at_bound
+                               ? noise_ * std::sqrt(factor_)
+                               : std::max(std::sqrt(errors_.variance(i, i) /
+                                                    errors_.of_one.diagonal()[as_signed(i)]),
+                                          1e-12);
       const Profile got = one.inseparable
                               ? profile_over_box(problem_, best_, i)
                               : profile(problem_, best_, i, errors_.covariance, sigma, t_);
@@ -615,13 +591,11 @@ class Search {
   //                                                                  docs/theory.md [model_error]
   void widen_by_model() {
     const std::size_t n = unknowns_.size();
-    const Eigen::Map<const Eigen::MatrixXd> of_one(errors_.of_one.data(), as_signed(n),
-                                                   as_signed(n));
     std::vector<double> moved(n, 0.0);  // by every pair, whose errors may differ in sign
     std::vector<double> combined(found_.combinations.size(), 0.0);
     for (const Part& part : parts_) {
       const double error = part.found.predicted_error.value_or(0.0) + std::abs(part.body.change);
-      const Eigen::VectorXd change = error * of_one * changes_of(part).first;
+      const Eigen::VectorXd change = error * errors_.of_one * changes_of(part).first;
       for (std::size_t i = 0; i < n; ++i) moved[i] += std::abs(change[as_signed(i)]);
       for (std::size_t k = 0; k < combined.size(); ++k) {
         const Eigen::Map<const Eigen::VectorXd> gradient(found_.combinations[k].gradient.data(),
@@ -682,7 +656,7 @@ class Search {
   BoxMinimum best_;
   BoxErrors errors_;
   std::vector<double> residuals_;  // weighted
-  std::vector<double> along_;      // their covariance along the determined directions, by rows
+  dense::Matrix along_;            // their covariance along the determined directions
   double noise_ = 0.0;             // their standard deviation
   double factor_ = 1.0;            // mean ratio of the variances to those of independent residuals
   bool systematic_ = false;        // the residuals are correlated by both tests

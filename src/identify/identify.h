@@ -106,10 +106,11 @@ struct Identification : CurveFit {
 // The pairs of a joint identification, or the only one itself.
 [[nodiscard]] std::vector<const Identification*> views(const Identification& found);
 
-// A measurement and the scenario of its test.
+// A measurement, the scenario of its test, and the path of the measured file.
 struct Pair {
   const Measurement* measured = nullptr;
   const scenario::Family* family = nullptr;
+  std::string file = {};
 };
 
 // Fits the first case of each pair's family to its measurement, with the unknowns that it has (see

@@ -22,14 +22,14 @@ class Preparation {
 
   PreparedCurve all(Noise noise) {
     const scenario::Case& asked = family_.cases.front();
-    kind_ = curve_of(measured_, asked.scenario, unknowns_);
+    found_.kind = curve_of(measured_, asked.scenario, unknowns_);
     check_pseudo_keys();
     choose_model(asked);
     choose_points();
     average();
-    found_.curve->set_points(found_.x);
+    made_.curve->set_points(found_.x);
     weigh(noise);
-    return std::move(found_);
+    return std::move(made_);
   }
 
  private:
@@ -73,8 +73,10 @@ class Preparation {
     const FixedModel fixed = fix_model(asked, family_.document, unknowns_);
     found_.given = fixed.given;
     found_.worst_error = fixed.worst_error;
-    found_.curve = std::make_unique<ScenarioCurve>(kind_, fixed, family_, unknowns_);
-    if (goes_on) found_.curve->set_farthest(*std::ranges::max_element(measured_.x));
+    found_.taken = fixed.model;
+    made_.curve = std::make_unique<ScenarioCurve>(kind_, fixed, family_, unknowns_);
+    found_.closed_form = made_.curve->has_formula();
+    if (goes_on) made_.curve->set_farthest(*std::ranges::max_element(measured_.x));
   }
 
   [[nodiscard]] std::size_t shift_of(const Unknown* one) const {
@@ -117,10 +119,10 @@ class Preparation {
     for (const std::vector<double>& u : search_starts(unknowns_.size())) {
       std::vector<double> values;
       for (std::size_t i = 0; i < u.size(); ++i) values.push_back(unknowns_[i].value(u[i]));
-      rows = found_.curve->rows(values);
+      rows = made_.curve->rows(values);
       first = u;
       if (rows) break;
-      if (failure.empty()) failure = found_.curve->failure();
+      if (failure.empty()) failure = made_.curve->failure();
     }
     if (!rows)
       refuse("the scenario cannot be run anywhere in the ranges of `--unknown`: " + failure);
@@ -196,7 +198,7 @@ class Preparation {
     found_.x = std::move(means.x);
     found_.measured = std::move(means.y);
     counts_ = std::move(means.count);
-    found_.rows_each = *std::ranges::max_element(counts_);
+    made_.rows_each = *std::ranges::max_element(counts_);
   }
 
   void refuse_poor_data() const {
@@ -218,18 +220,19 @@ class Preparation {
     const double range = *most - *least;
     const double largest = std::max(std::abs(*least), std::abs(*most));
     for (const double y : found_.measured)
-      found_.weights.push_back(
+      made_.weights.push_back(
           noise == Noise::constant ? 1.0 / range : 1.0 / std::max(std::abs(y), 0.01 * largest));
     for (std::size_t i = 0; i < counts_.size(); ++i)
-      found_.weights[i] *= std::sqrt(counts_[i] / found_.rows_each);
+      made_.weights[i] *= std::sqrt(counts_[i] / made_.rows_each);
   }
 
   const Measurement& measured_;
   const scenario::Family& family_;
   const std::vector<Unknown>& unknowns_;
-  CurveKind kind_ = CurveKind::force_travel;
+  PreparedCurve made_;
+  Identification& found_ = made_.found;
+  const CurveKind& kind_ = found_.kind;
   std::vector<double> counts_;  // rows of each point, where they are averaged
-  PreparedCurve found_;
 };
 
 }  // namespace

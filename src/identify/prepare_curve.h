@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "identify/identify.h"
@@ -11,14 +10,10 @@
 namespace palpate::identify {
 
 struct PreparedCurve {
-  bool given = false;        // the scenario names the model
-  double worst_error = 0.0;  // relative, the largest estimate over the ranges
-  std::unique_ptr<ScenarioCurve> curve;
-  std::vector<double> x, measured;  // SI, of the points used
-  std::vector<double> weights;      // of the residuals, 1/SI
-  double rows_each = 1.0;           // largest number of rows of which a point is the mean
-  int excluded = 0;                 // measured points that are not used
-  std::vector<std::string> notes;
+  Identification found;  // the curve, its model and points, and what was excluded, before a search
+  std::unique_ptr<ScenarioCurve> curve = nullptr;
+  std::vector<double> weights = {};  // of the residuals, 1/SI
+  double rows_each = 1.0;            // largest number of rows of which a point is the mean
 };
 
 // Throws InputError like identify(). `family` and `unknowns` must outlive the result.

@@ -30,6 +30,7 @@ bool by_formula(const CurveFit& found) {
 }
 
 using record::Cell;
+using record::known;
 
 Cell cell(const std::optional<double>& si, const Unknown& unknown) {
   return si ? Cell(unknown.shown(*si)) : Cell();
@@ -130,18 +131,17 @@ record::Table identified_table(const Identification& found) {
     const std::optional<double> estimate =
         one.inseparable ? std::nullopt : std::optional(one.estimate);
     table.rows.push_back(
-        {unknown.name(), unknown.unit_text(), cell(estimate, unknown), cell(one.std_error, unknown),
-         cell(one.ci95_low, unknown), cell(one.ci95_high, unknown), word(one.at_bound),
-         word(!one.inseparable), cell(one.profile_low, unknown), cell(one.profile_high, unknown),
+        {unknown.name(), known(unknown.unit_text()), cell(estimate, unknown),
+         cell(one.std_error, unknown), cell(one.ci95_low, unknown), cell(one.ci95_high, unknown),
+         word(one.at_bound), word(!one.inseparable), cell(one.profile_low, unknown),
+         cell(one.profile_high, unknown),
          one.inseparable ? Cell() : Cell(std::string(one.by_profile ? "profile" : "student")),
          cell(one.moved_down, unknown), cell(one.moved_up, unknown)});
-    if (unknown.unit_text().empty()) table.rows.back()[1] = Cell();
   }
   for (const Combination& one : found.combinations) {
-    table.rows.push_back({one.text, one.unit, one.estimate, one.std_error, one.ci95_low,
+    table.rows.push_back({one.text, known(one.unit), one.estimate, one.std_error, one.ci95_low,
                           one.ci95_high, word(false), word(true), Cell(), Cell(),
                           std::string("student"), Cell(), Cell()});
-    if (one.unit.empty()) table.rows.back()[1] = Cell();
   }
   return table;
 }
@@ -153,11 +153,8 @@ record::Table correlation_table(const Identification& found) {
   for (const Identified& one : found.unknowns) table.columns.push_back(one.unknown.name());
   for (std::size_t i = 0; i < n; ++i) {
     table.rows.push_back({found.unknowns[i].unknown.name()});
-    for (std::size_t j = 0; j < n; ++j) {
-      const double value = found.correlation[i * n + j];
-      Cell& cell = table.rows.back().emplace_back();
-      if (!std::isnan(value)) cell = value;
-    }
+    for (std::size_t j = 0; j < n; ++j)
+      table.rows.back().push_back(known(found.correlation[i * n + j]));
   }
   return table;
 }
@@ -168,8 +165,8 @@ record::Table profile_table(const Identification& found) {
   for (const ProfilePoint& point : found.profile) {
     const Unknown& unknown = found.unknowns[point.unknown].unknown;
     const std::string unit = unknown.unit_text();
-    table.rows.push_back({unknown.name(), unit.empty() ? Cell() : Cell(unit),
-                          unknown.shown(point.value), point.delta, found.threshold});
+    table.rows.push_back(
+        {unknown.name(), known(unit), unknown.shown(point.value), point.delta, found.threshold});
   }
   return table;
 }
@@ -282,22 +279,22 @@ std::vector<std::string> warnings_of(const Identification& found,
 namespace {
 
 // The text of scenario.toml, with which `palpate run` repeats the fitted curve.
-std::string echo_of(const identify::Identification& found, const scenario::Family& family) {
+std::string echo_of(const Identification& found, const scenario::Family& family) {
   scenario::Family one = family;
   one.cases.resize(1);
   one.cases.front().scenario = found.scenario;
   one.design = {};
   std::string text = "# Fitted to a measurement: `palpate run` of this file repeats the curve.\n";
-  for (const identify::Identified& each : found.unknowns) {
-    const identify::Unknown& unknown = each.unknown;
+  for (const Identified& each : found.unknowns) {
+    const Unknown& unknown = each.unknown;
     const std::string value = rounded_text(unknown.shown(each.estimate), 6) +
                               (unknown.unit ? " " + unknown.unit_text() : "");
     if (each.inseparable)
       text +=
           "# " + unknown.name() + " is not determined by itself: one of many values that fit.\n";
-    if (unknown.what == identify::Unknown::What::contact_point)
+    if (unknown.what == Unknown::What::contact_point)
       text += "# Displacement 0 is at " + value + " of the measurement.\n";
-    if (unknown.what == identify::Unknown::What::force_offset)
+    if (unknown.what == Unknown::What::force_offset)
       text += "# contact.ambient_force holds the measurement's offset of " + value + ".\n";
   }
   return text + scenario::echo(one);
@@ -310,18 +307,19 @@ std::string suffix_of(const Identification& found, std::size_t k) {
 
 std::string figure_words(const std::string& name) {
   if (name.starts_with("profile"))
-    return "How much worse the fit becomes if one value is fixed and the others are fitted; below "
+    return "How much worse the fit becomes if one value is fixed and the others are fitted; "
+           "below "
            "the line the value is within the 95 % interval of the noise. What is not known of "
            "model, body and given values makes the stated interval wider.";
   return "Measured and fitted curve, and below them the residuals, measured minus model.";
 }
 
 // The arguments without those that change no result, run where the files lie.
-std::string command_of(const std::vector<std::string>& argv, std::span<const PairFiles> pairs) {
+std::string command_of(const std::vector<std::string>& argv, std::span<const Pair> pairs) {
   const auto file_of = [&](const std::string& word) {
     const std::string name = std::filesystem::path(word).filename().string();
-    const bool known = std::ranges::any_of(pairs, [&](const PairFiles& pair) {
-      return word == pair.measured || name == pair.family->inputs.front().name;
+    const bool known = std::ranges::any_of(pairs, [&](const Pair& pair) {
+      return word == pair.file || name == pair.family->inputs.front().name;
     });
     return known ? name : word;
   };
@@ -351,13 +349,13 @@ record::Table residual_table(const Identification& found) {
 }
 
 // The page of an identification: what was found, how well it fits, and what it depends on.
-void write_page(const identify::Identification& found, std::span<const PairFiles> pairs,
+void write_page(const Identification& found, std::span<const Pair> pairs,
                 const std::vector<HashedFile>& inputs, const std::string& command,
                 WholeFolder& folder) {
   page::Page page(pairs.front().family->title, "identification");
   // The first unknown large, the others and what the fit is below.
   std::vector<std::string> lines = identified_sentences(found);
-  const identify::Identified& first = found.unknowns.front();
+  const Identified& first = found.unknowns.front();
   if (const auto [value, interval] = estimate_texts(found, first); !interval.empty()) {
     page.headline(plot::key_label(first.unknown.name()) + " " + value, interval);
     lines.erase(lines.begin());
@@ -366,7 +364,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
     page.headline(known, its_interval);
   }
   std::vector<std::string> unknown;
-  for (const identify::Identified& one : found.unknowns) unknown.push_back(one.unknown.name());
+  for (const Identified& one : found.unknowns) unknown.push_back(one.unknown.name());
   page.answer(lines);
   if (pairs.size() == 1)  // what the unknowns depend on
     page.answer({joined(scenario::tested(pairs.front().family->cases.front(), unknown), "; ")});
@@ -405,7 +403,7 @@ void write_page(const identify::Identification& found, std::span<const PairFiles
 }  // namespace
 
 std::vector<std::string> write_identification(const Identification& found,
-                                              std::span<const PairFiles> pairs,
+                                              std::span<const Pair> pairs,
                                               const report::Origin& origin, WholeFolder& folder) {
   std::vector<std::string> warnings;
   folder.open();
@@ -433,14 +431,12 @@ std::vector<std::string> write_identification(const Identification& found,
     if (!is_exact(found)) plot::draw(profile_sheet(title, found), folder, warnings);
   }
 
-  report::Manifest manifest{.origin = origin, .complete = true};
-  for (const scenario::InputFile& input : read)
-    manifest.inputs.push_back({input.name, sha256(input.content)});
+  report::Manifest manifest{.origin = origin, .inputs = scenario::hashed(read), .complete = true};
   std::vector<HashedFile> inputs = manifest.inputs;
-  for (const PairFiles& pair : pairs) {
-    const std::string hash = file_sha256(pair.measured);
-    inputs.push_back({std::filesystem::path(pair.measured).filename().string(), hash});
-    manifest.inputs.push_back({pair.measured, hash});
+  for (const Pair& pair : pairs) {
+    const std::string hash = file_sha256(pair.file);
+    inputs.push_back({std::filesystem::path(pair.file).filename().string(), hash});
+    manifest.inputs.push_back({pair.file, hash});
   }
   write_page(found, pairs, inputs, command_of(origin.argv, pairs), folder);
   manifest.outputs = folder.files();
@@ -456,20 +452,20 @@ std::string label(const char* name, const Unit& unit) {
   return *unit.symbol == '\0' ? name : std::string(name) + " (" + unit.symbol + ")";
 }
 
-std::pair<const char*, const char*> axes(identify::CurveKind kind) {
+std::pair<const char*, const char*> axes(CurveKind kind) {
   switch (kind) {
-    case identify::CurveKind::force_travel: return {"Displacement", "Force"};
-    case identify::CurveKind::force_time: return {"Time", "Force"};
-    case identify::CurveKind::tangential_slide: return {"Slide", "Tangential force"};
-    case identify::CurveKind::strain_time: return {"Time", "Strain"};
-    case identify::CurveKind::stress_time: return {"Time", "Stress"};
-    case identify::CurveKind::stress_strain: return {"Strain", "Stress"};
+    case CurveKind::force_travel: return {"Displacement", "Force"};
+    case CurveKind::force_time: return {"Time", "Force"};
+    case CurveKind::tangential_slide: return {"Slide", "Tangential force"};
+    case CurveKind::strain_time: return {"Time", "Strain"};
+    case CurveKind::stress_time: return {"Time", "Stress"};
+    case CurveKind::stress_strain: return {"Strain", "Stress"};
   }
   return {"", ""};
 }
 
-// The power of a thousand in which numbers up to `most` have one to three digits before the point;
-// 1 for those from 0.001 on, and for 0.
+// The power of a thousand in which numbers up to `most` have one to three digits before the
+// point; 1 for those from 0.001 on, and for 0.
 double power_of_thousand(double most) {
   if (most >= 1e-3 || most == 0.0) return 1.0;
   return std::pow(10.0, 3.0 * std::floor(std::log10(most) / 3.0));
@@ -493,9 +489,9 @@ bool noise_about_zero(const Identification& found) {
 
 }  // namespace
 
-plot::Sheet identified_sheet(const std::string& title, const identify::Identification& found,
+plot::Sheet identified_sheet(const std::string& title, const Identification& found,
                              const std::string& suffix) {
-  const identify::CurveWords& words = identify::words_of(found.kind);
+  const CurveWords& words = words_of(found.kind);
   const auto [x, y] = axes(found.kind);
   const std::string table = "residuals" + suffix + ".csv";
   const std::string file = "'" + table + "' using 1";
@@ -514,7 +510,8 @@ plot::Sheet identified_sheet(const std::string& title, const identify::Identific
           ":3 smooth unique with lines linewidth 1.6 linecolor rgb '#D55E00' title 'model'\n";
   const double scale = power_of_thousand(largest_residual(found));
   text +=
-      "unset title\nunset key\nset autoscale y\nset tmargin at screen 0.38\nset bmargin at screen "
+      "unset title\nunset key\nset autoscale y\nset tmargin at screen 0.38\nset bmargin at "
+      "screen "
       "0.13\n"
       "set format x '%.10g'\nset xlabel " +
       plot::gnuplot_quoted(label(x, words.x)) + "\nset ylabel " +
@@ -546,7 +543,7 @@ ProfileAxis profile_axis(const Identification& found, std::size_t i) {
 
 }  // namespace
 
-plot::Sheet profile_sheet(const std::string& title, const identify::Identification& found) {
+plot::Sheet profile_sheet(const std::string& title, const Identification& found) {
   const std::size_t panels = found.unknowns.size();
   std::string text = plot::gnuplot_head("profile", {.height = static_cast<int>(60 + 270 * panels)});
   text += "set datafile missing NaN\nset multiplot layout " + std::to_string(panels) + ",1 title " +
@@ -554,7 +551,7 @@ plot::Sheet profile_sheet(const std::string& title, const identify::Identificati
           "\nunset key\nset ylabel '(SSE - least SSE) / s^2'\nset rmargin 4\n"
           "set yrange [0:*]\n";
   for (std::size_t i = 0; i < panels; ++i) {
-    const identify::Identified& one = found.unknowns[i];
+    const Identified& one = found.unknowns[i];
     const std::string unit = one.unknown.unit_text();
     const auto [origin, scale] = profile_axis(found, i);
     const std::string pick = "(strcol('unknown') eq '" + one.unknown.name() +

@@ -1,6 +1,7 @@
 // HTML in pieces. A text becomes part of a page only through these functions, which escape it.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,5 +57,9 @@ using Attributes = std::vector<std::pair<std::string_view, std::string>>;
 // The first `most` rows of a large table, with a link to the file that holds all of them.
 [[nodiscard]] Markup table_of_file(const std::string& caption, const record::Table& content,
                                    const std::string& file, std::size_t most);
+
+// A picture of width x height pixels as a `data:` address of a PNG. Each byte of `shades`, row by
+// row from the top, is a colour of the palette of values from 1 to 255; 0 is transparent.
+[[nodiscard]] std::string png_address(int width, int height, std::span<const unsigned char> shades);
 
 }  // namespace palpate::page

@@ -10,6 +10,10 @@
 #include "base/text.h"
 #include "base/written.h"
 
+#ifndef PALPATE_VERSION
+#define PALPATE_VERSION "unknown"
+#endif
+
 namespace palpate::page {
 
 const char* style() {
@@ -92,13 +96,6 @@ footer { color: var(--soft); margin-top: 2rem; font-size: .9rem; }
 )css";
 }
 
-}  // namespace palpate::page
-
-#ifndef PALPATE_VERSION
-#define PALPATE_VERSION "unknown"
-#endif
-
-namespace palpate::page {
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,6 +1,4 @@
 // PNG with a palette (ISO/IEC 15948) and stored, uncompressed data (RFC 1950, RFC 1951).
-#include "page/png.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -8,6 +6,7 @@
 
 #include "base/index.h"
 #include "base/written.h"
+#include "page/html.h"
 #include "plot/gnuplot_text.h"
 
 namespace palpate::page {

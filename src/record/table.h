@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -14,9 +15,15 @@ namespace palpate::record {
 // Missing (an empty field), a number, or a word.
 using Cell = std::variant<std::monostate, double, std::string>;
 
-// A number; missing where it is not finite.
+// A number or a word; missing where it is not finite, not there or empty.
 [[nodiscard]] inline Cell known(double value) {
   return std::isfinite(value) ? Cell(value) : Cell();
+}
+[[nodiscard]] inline Cell known(const std::optional<double>& value) {
+  return value ? known(*value) : Cell();
+}
+[[nodiscard]] inline Cell known(std::string_view word) {
+  return word.empty() ? Cell() : Cell(std::string(word));
 }
 
 struct Table {

@@ -8,7 +8,6 @@
 #include "base/index.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "page/png.h"
 #include "plot/gnuplot_text.h"
 
 namespace palpate::report {

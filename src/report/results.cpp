@@ -306,9 +306,8 @@ std::vector<std::string> ResultFolder::finish(const std::vector<record::CaseReco
     write_run_page({.family = *family_, .records = records, .fits = fits, .figures = figures},
                    folder_);
 
-  Manifest manifest{.origin = origin, .outputs = folder_.files()};
-  for (const scenario::InputFile& input : family_->inputs)
-    manifest.inputs.push_back({input.name, sha256(input.content)});
+  Manifest manifest{
+      .origin = origin, .inputs = scenario::hashed(family_->inputs), .outputs = folder_.files()};
   for (const record::CaseRecord& record : records)
     manifest.cases.push_back({record.name, record.reason, record.seconds});
   manifest.complete = records.size() == family_->cases.size() && extras.omitted() == 0;

@@ -561,9 +561,7 @@ void write_run_page(const RunShown& shown, WholeFolder& folder) {
   page.section("Fits", fits(shown.fits), folded);
   page.section("Pressure maps", maps(records), folded);
   page.section("Scenario", asked(family, read_text(folder.file("scenario.toml"))), folded);
-  std::vector<HashedFile> inputs;
-  for (const scenario::InputFile& input : family.inputs)
-    inputs.push_back({input.name, sha256(input.content)});
+  const std::vector<HashedFile> inputs = scenario::hashed(family.inputs);
   const bool live =
       std::ranges::any_of(records, [](const auto& record) { return !record.attached.empty(); });
   page.section(

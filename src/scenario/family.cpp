@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "base/fields.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "scenario/schema.h"
 
@@ -371,6 +370,12 @@ Family outline_planned(const std::string& path) {
 Family outline(const std::string& path, const std::vector<std::string>& settings) {
   const std::string found = file_of(path);
   return outline_text(read_text(found), name_of(found), settings);
+}
+
+std::vector<HashedFile> hashed(const std::vector<InputFile>& files) {
+  std::vector<HashedFile> all;
+  for (const InputFile& file : files) all.push_back({file.name, sha256(file.content)});
+  return all;
 }
 
 const Case& case_named(const Family& family, const std::string& name) {

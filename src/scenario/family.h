@@ -9,6 +9,7 @@
 
 #include "base/document.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "material/tissue_table.h"
 #include "scenario/design.h"
 #include "scenario/scenario.h"
@@ -44,6 +45,8 @@ struct InputFile {
   std::string name;  // in the echo
   std::string content;
 };
+
+[[nodiscard]] std::vector<HashedFile> hashed(const std::vector<InputFile>& files);
 
 // Files read for a family, once for all of its cases.
 struct Library {

@@ -236,8 +236,6 @@ void output_fields(FieldVisitor& visitor, Output& output, const Conditions& use)
       output.display_scale, above(0));
 }
 
-using namespace words;
-
 }  // namespace
 
 // FieldVisitor::alternatives finds these functions by argument-dependent lookup.

@@ -8,7 +8,7 @@
 #include "integrate/implicit.h"
 #include "mechanics/stepper.h"
 #include "scenario/words.h"
-#include "stability/survey.h"
+#include "stability/measure.h"
 
 namespace palpate::stability {
 namespace {

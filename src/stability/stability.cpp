@@ -12,7 +12,7 @@
 #include "scenario/integrators.h"
 #include "scenario/tested.h"
 #include "scenario/words.h"
-#include "stability/survey.h"
+#include "stability/measure.h"
 
 namespace palpate::stability {
 

@@ -11,16 +11,14 @@
 #include "plot/gnuplot_text.h"
 #include "record/csv.h"
 #include "scenario/words.h"
+#include "stability/measure.h"
 #include "stability/stability.h"
-#include "stability/survey.h"
 
 namespace palpate::stability {
 namespace {
 
 using record::Cell;
-
-Cell cell(const std::optional<double>& number) { return number ? Cell(*number) : Cell(); }
-Cell cell(const std::string& word) { return word.empty() ? Cell() : Cell(word); }
+using record::known;
 
 Cell microseconds(const std::optional<double>& seconds) {
   return seconds ? Cell(1e6 * *seconds) : Cell();
@@ -36,8 +34,8 @@ record::Table limit_table(const StabilityMap& map) {
     Cell ratio;
     if (row.measured && row.theory && *row.theory > 0.0) ratio = *row.measured / *row.theory;
     table.rows.push_back({row.model, row.volume, row.integrator, row.damping, row.axis,
-                          cell(row.value), microseconds(row.measured), microseconds(row.theory),
-                          ratio, failure_word(row.failure), cell(row.note)});
+                          known(row.value), microseconds(row.measured), microseconds(row.theory),
+                          ratio, failure_word(row.failure), known(row.note)});
   }
   return table;
 }
@@ -47,10 +45,10 @@ record::Table failure_table(const StabilityMap& map) {
   table.columns = {"failure", "model",    "integrator", "setting", "setting_unit",
                    "measure", "measured", "theory",     "seen",    "note"};
   for (const FailureRow& row : map.failures)
-    table.rows.push_back({failure_word(row.failure), cell(row.model), cell(row.integrator),
-                          cell(row.setting), cell(row.setting_unit), row.measure,
-                          cell(row.measured), cell(row.theory), row.reached ? "yes" : "not reached",
-                          cell(row.note)});
+    table.rows.push_back({failure_word(row.failure), known(row.model), known(row.integrator),
+                          known(row.setting), known(row.setting_unit), row.measure,
+                          known(row.measured), known(row.theory),
+                          row.reached ? "yes" : "not reached", known(row.note)});
   return table;
 }
 
@@ -117,9 +115,9 @@ constexpr Curve volume_curves[] = {{"volume", "tetrahedron", "of every tetrahedr
 constexpr Curve device[] = {{"integrator", "zero_order_hold", "frame time", "CC79A7", 7}};
 
 // Whether the map has points of the curve on this axis; gnuplot warns of curves without points.
-bool drawn(const stability::StabilityMap& map, const Curve& curve, const std::string& axis) {
+bool drawn(const StabilityMap& map, const Curve& curve, const std::string& axis) {
   const bool by_volume = std::string("volume") == curve.column;
-  for (const stability::LimitRow& row : map.limits)
+  for (const LimitRow& row : map.limits)
     if (row.axis == axis && row.measured && row.theory &&
         (by_volume ? row.volume : row.integrator) == curve.word)
       return true;
@@ -133,8 +131,8 @@ std::string picked(const Curve& curve, const std::string& axis, const char* colu
 
 // Theory as a line, measurements as points. The panel of an axis without rows stays empty.
 enum class Legend { none, own };
-std::string curves(const stability::StabilityMap& map, std::span<const Curve> all,
-                   const std::string& axis, Legend legend = Legend::none) {
+std::string curves(const StabilityMap& map, std::span<const Curve> all, const std::string& axis,
+                   Legend legend = Legend::none) {
   std::vector<std::string> lines;
   const std::string file = "'stability.csv' using ";
   for (const Curve& curve : all) {
@@ -176,10 +174,10 @@ std::string scaled(const char* axis, const Range& range) {
 enum class Scale { linear_x, linear_y, logarithmic };
 
 // The frame of a panel. `axis` names the rows whose range it shows.
-std::string panel(const stability::StabilityMap& map, const std::string& axis, Scale scale,
+std::string panel(const StabilityMap& map, const std::string& axis, Scale scale,
                   const std::string& title, const std::string& x_label) {
   Range x, y;
-  for (const stability::LimitRow& row : map.limits) {
+  for (const LimitRow& row : map.limits) {
     if (row.axis != axis || !row.measured || !row.theory) continue;
     y.take(1e6 * *row.measured);
     y.take(1e6 * *row.theory);
@@ -194,7 +192,7 @@ std::string panel(const stability::StabilityMap& map, const std::string& axis, S
 }
 
 // Measured over theoretical limits of every model and damping; equal ones lie on the diagonal.
-std::string agreement(const stability::StabilityMap& map) {
+std::string agreement(const StabilityMap& map) {
   std::vector<std::string> lines{"x with lines linewidth 1.2 linecolor rgb '#808080' notitle"};
   for (const Curve& curve : method_curves) {
     if (!drawn(map, curve, "model")) continue;
@@ -222,7 +220,7 @@ std::string strip() {
   std::vector<std::string> names;
   std::string index = "NaN";
   for (int i = 1; i <= 7; ++i) {
-    const std::string word = stability::failure_word(static_cast<stability::Failure>(i));
+    const std::string word = failure_word(static_cast<Failure>(i));
     // On two lines in turn, because neighbours would overlap.
     names.push_back("\"" + std::string(i % 2 == 0 ? "\\n" : "") + word + "\" " +
                     std::to_string(i - 1));
@@ -243,7 +241,7 @@ std::string strip() {
 
 }  // namespace
 
-plot::Sheet stability_sheet(const std::string& title, const stability::StabilityMap& map) {
+plot::Sheet stability_sheet(const std::string& title, const StabilityMap& map) {
   std::string text = plot::gnuplot_head("stability", {.height = 1560, .tick_font = 13});
   text +=
       "set datafile missing NaN\nset xtics offset 0,0.3\nset ytics offset 0.5,0\n"

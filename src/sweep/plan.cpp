@@ -80,7 +80,7 @@ std::string words_of(const scenario::Family& family, std::size_t index) {
 class Maker {
  public:
   Maker(const scenario::Family& original, const scenario::Family& copy)
-      : original_(original), copy_(copy), files_(hashed_inputs(copy)) {}
+      : original_(original), copy_(copy), files_(scenario::hashed(copy.inputs)) {}
 
   [[nodiscard]] PlannedCase operator()(std::size_t index) const {
     PlannedCase planned;
@@ -102,7 +102,7 @@ class Maker {
  private:
   const scenario::Family& original_;
   const scenario::Family& copy_;
-  HashedNames files_;
+  std::vector<HashedFile> files_;
 };
 
 void refuse_twins(const scenario::Family& family, const std::vector<std::uint64_t>& ids) {
@@ -260,7 +260,7 @@ Planned plan_sweep(const SweepOrder& order) {
                       .cases = planned.cases,
                       .model = copy.at_least,
                       .csv_hash = folder.files().back().sha256,
-                      .inputs = hashed_inputs(copy)};
+                      .inputs = scenario::hashed(copy.inputs)};
   const std::string text = plan_text(file);
   folder.write("plan.json", text);
   if (there) {
@@ -360,7 +360,7 @@ PlanFile read_plan_file(const std::string& text, const std::string& path) {
     }
     file.csv_hash = json.at("plan_csv_sha256");
     for (const Json& input : json.at("inputs"))
-      file.inputs.emplace_back(input.at("name"), input.at("sha256"));
+      file.inputs.push_back({input.at("name"), input.at("sha256")});
   } catch (const std::exception&) {
     throw InputError({path, 0, 0},
                      "is damaged, or made by another version; put it back, or plan anew");
@@ -375,23 +375,13 @@ std::string differences(const PlanFile& a, const PlanFile& b) {
   if (a.cases != b.cases)
     names.push_back("number of cases (" + std::to_string(a.cases) + ", not " +
                     std::to_string(b.cases) + ")");
-  for (const auto& [name, hash] : b.inputs) {
-    bool same = false;
-    for (const auto& known : a.inputs) same = same || known == std::pair(name, hash);
-    if (!same) names.push_back(ticked(name));
-  }
+  for (const HashedFile& input : b.inputs)
+    if (std::ranges::find(a.inputs, input) == a.inputs.end()) names.push_back(ticked(input.path));
   if (names.empty()) names.emplace_back("`--set`");
   return joined(names, ", ");
 }
 
-HashedNames hashed_inputs(const scenario::Family& family) {
-  HashedNames names;
-  for (const scenario::InputFile& input : family.inputs)
-    names.emplace_back(input.name, sha256(input.content));
-  return names;
-}
-
-std::uint64_t case_id(const scenario::Case& one, const HashedNames& files) {
+std::uint64_t case_id(const scenario::Case& one, const std::vector<HashedFile>& files) {
   // What only says how results are shown, or is left open, and did not exist when the first plans
   // were made, changes no id: ids name results of years.
   constexpr std::array<std::string_view, 7> later{
@@ -469,7 +459,7 @@ std::string set_up_key(const scenario::Family& family, std::size_t i, bool meshe
 class Trial {
  public:
   Trial(const scenario::Family& family, bool keeps_curves)
-      : family_(family), keeps_curves_(keeps_curves), files_(hashed_inputs(family)) {}
+      : family_(family), keeps_curves_(keeps_curves), files_(scenario::hashed(family.inputs)) {}
 
   // The time of all cases, s; nothing if a case does not end as it should.
   std::optional<double> seconds() {
@@ -535,7 +525,7 @@ class Trial {
 
   const scenario::Family& family_;
   bool keeps_curves_;
-  HashedNames files_;
+  std::vector<HashedFile> files_;
   scene::SpecimenShapes shapes_;
   scene::SurfaceDisplacementStore surface_displacements_;
 };

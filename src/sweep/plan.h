@@ -119,10 +119,8 @@ inline constexpr std::size_t sweep_ceiling = 10000;
 
 // A case's id: the first 16 digits of the SHA-256 of all its keys, with defaults and material
 // properties, of the model that its family takes, and of the hashes of the files that it reads.
-// `files` are pairs of name and hash.
-using HashedNames = std::vector<std::pair<std::string, std::string>>;
-[[nodiscard]] HashedNames hashed_inputs(const scenario::Family& family);
-[[nodiscard]] std::uint64_t case_id(const scenario::Case& one, const HashedNames& files);
+[[nodiscard]] std::uint64_t case_id(const scenario::Case& one,
+                                    const std::vector<HashedFile>& files);
 
 // The id of a sampled case that equals an earlier case: a hash of `id` and of its `number` from 1.
 // Samples of words repeat, and in a Saltelli design the row of A with a column of B equals the row
@@ -138,7 +136,7 @@ struct PlanFile {
   std::size_t cases = 0;
   std::optional<scenario::Solver::Model> model = {};  // Family::at_least
   std::string csv_hash = {};
-  HashedNames inputs;  // the scenario first
+  std::vector<HashedFile> inputs;  // the scenario first
 };
 
 [[nodiscard]] std::string plan_text(const PlanFile& file);

@@ -38,8 +38,8 @@ record::Table journal_row(const SweepRow& row) {
   for (const record::Finding& value : row.values) values.rows.push_back({value.name, value.value});
   record::Table neglected{{"what", "change", "when", "remedy", "beside"}, {}};
   for (const record::Neglected& one : row.neglected)
-    neglected.rows.push_back({one.what, one.change ? record::Cell(*one.change) : record::Cell(),
-                              one.when, one.remedy, one.beside});
+    neglected.rows.push_back(
+        {one.what, record::known(one.change), one.when, one.remedy, one.beside});
   const std::string curve = row.curve.columns.empty() ? "" : record::csv_text(row.curve);
   return {{"id", "attempt", "outcome", "reason", "name", "values", "neglected", "curve"},
           {{id_text(row.id), static_cast<double>(row.attempt), outcome_word(row.outcome),
@@ -93,11 +93,6 @@ std::optional<SweepRow> row_of(const record::Table& row) {
 
 namespace {
 
-record::Cell known(double value) {
-  if (std::isnan(value)) return std::monostate{};
-  return value;
-}
-
 // Replaces the spaces in a curve's name, as in `force_indentation x 0.1`.
 std::string column_word(std::string text) {
   std::ranges::replace(text, ' ', '_');
@@ -112,10 +107,10 @@ void add_fits(const std::vector<fit::NamedFit>& fits, SweepRow& row) {
       const std::string unit =
           parameter.unit.empty() ? "" : "_" + record::unit_word(parameter.unit);
       const std::string name = curve + "_" + parameter.name;
-      row.values.push_back({name + unit, known(parameter.estimate)});
-      row.values.push_back({name + "_std_error" + unit, known(parameter.std_error)});
+      row.values.push_back({name + unit, record::known(parameter.estimate)});
+      row.values.push_back({name + "_std_error" + unit, record::known(parameter.std_error)});
     }
-    row.values.push_back({curve + "_r2", known(named.fit.r2)});
+    row.values.push_back({curve + "_r2", record::known(named.fit.r2)});
   }
 }
 

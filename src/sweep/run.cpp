@@ -40,7 +40,7 @@ class Runner {
       : plan_(plan),
         task_(task),
         no_more_(no_more),
-        files_(hashed_inputs(plan.family)),
+        files_(scenario::hashed(plan.family.inputs)),
         told_(told) {}
 
   void run(const std::vector<std::uint32_t>& numbers,
@@ -211,7 +211,7 @@ class Runner {
   const SweepTask& task_;
   std::atomic<bool> broken_ = false;  // the journal cannot be written
   const std::atomic<bool>& no_more_;
-  const HashedNames files_;
+  const std::vector<HashedFile> files_;
   std::function<std::uint32_t(std::uint32_t)> attempt_;
   std::unique_ptr<record::Journal> journal_;
   std::unique_ptr<scene::SpecimenShapes> shapes_ = std::make_unique<scene::SpecimenShapes>();

@@ -8,7 +8,6 @@
 #include "base/stop_scope.h"
 #include "stability/measure.h"
 #include "stability/stability.h"
-#include "stability/survey.h"
 
 namespace palpate::stability {
 namespace {

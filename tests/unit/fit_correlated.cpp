@@ -98,15 +98,15 @@ TEST(Correlated, FlickerNoiseIsHeld) {
       squares += x(i) * x(i);
     }
     slope /= squares;
-    std::vector<double> jacobian;
+    dense::Rows jacobian(rows, 2);
     for (int i = 0; i < rows; ++i) {
       residuals[static_cast<std::size_t>(i)] -= mean + slope * x(i);
-      jacobian.insert(jacobian.end(), {1.0, x(i)});
+      jacobian.row(i) << 1.0, x(i);
     }
-    const auto found = autocorrelation(residuals, jacobian, 2);
+    const auto found = autocorrelation(residuals, jacobian);
     ASSERT_TRUE(found.has_value());
     const double t = numerics::student_t_quantile(0.975, found->degrees);
-    slope_held += std::abs(slope) < t * std::sqrt(found->covariance[3]) ? 1 : 0;
+    slope_held += std::abs(slope) < t * std::sqrt(found->covariance(1, 1)) ? 1 : 0;
   }
   EXPECT_GE(slope_held, 181);  // 190 minus three standard deviations
 }
@@ -114,17 +114,17 @@ TEST(Correlated, FlickerNoiseIsHeld) {
 TEST(Correlated, RhoIsFound) {
   std::mt19937_64 random(5);
   const std::size_t count = 4000;
-  std::vector<double> ones(count, 1.0);
+  const dense::Rows ones = dense::Rows::Ones(count, 1);
   for (const double rho : {0.5, 0.9}) {
     std::vector<double> residuals = noise_of(rho, count, random);
-    const auto found = autocorrelation(residuals, ones, 1);
+    const auto found = autocorrelation(residuals, ones);
     ASSERT_TRUE(found.has_value());
     // Its standard deviation is sqrt((1 - rho^2) / n): 0.014 and 0.007.
     EXPECT_NEAR(found->rho, rho, 4.0 * std::sqrt((1.0 - rho * rho) / count));
     // The variance of a mean of n values is (1 + rho) / (1 - rho) / n. That other processes would
     // give the same residuals makes it larger, the width of the interval by less than three: of all
     // that can be fitted, a mean is what slow noise moves most.
-    const double variance = found->covariance[0] * count * (1.0 - rho) / (1.0 + rho);
+    const double variance = found->covariance(0, 0) * count * (1.0 - rho) / (1.0 + rho);
     EXPECT_GT(variance, 0.7);
     EXPECT_LT(variance, 9.0);
   }
@@ -133,11 +133,11 @@ TEST(Correlated, RhoIsFound) {
 TEST(Correlated, NothingWithoutCorrelation) {
   std::mt19937_64 random(6);
   int found = 0;
-  const std::vector<double> ones(200, 1.0);
+  const dense::Rows ones = dense::Rows::Ones(200, 1);
   for (int i = 0; i < 200; ++i)
-    found += autocorrelation(noise_of(0.0, 200, random), ones, 1).has_value() ? 1 : 0;
+    found += autocorrelation(noise_of(0.0, 200, random), ones).has_value() ? 1 : 0;
   EXPECT_LE(found, 20);  // 5 % of 200 are 10, with a standard deviation of 3
-  EXPECT_FALSE(autocorrelation(std::vector<double>(10, 1.0), std::vector<double>(10, 1.0), 1));
+  EXPECT_FALSE(autocorrelation(std::vector<double>(10, 1.0), dense::Rows::Ones(10, 1)));
 }
 
 }  // namespace

@@ -85,9 +85,9 @@ TEST(Regression, LogarithmicIsTheNormalEquations) {
   near(fit.parameters[1].estimate, line.b);
   near(fit.parameters[0].std_error, std::sqrt(line.var_a));
   near(fit.parameters[1].std_error, std::sqrt(line.var_b));
-  near(fit.covariance[0], line.var_a);
-  near(fit.covariance[1], line.cov_ab);
-  near(fit.covariance[3], line.var_b);
+  near(fit.covariance(0, 0), line.var_a);
+  near(fit.covariance(0, 1), line.cov_ab);
+  near(fit.covariance(1, 1), line.var_b);
   const double t = 2.048407141795244;  // t_0.975 at 28 degrees
   near(fit.parameters[1].ci95_high, line.b + t * std::sqrt(line.var_b));
 }
@@ -103,9 +103,9 @@ TEST(Regression, LinearisedPowerIsTheNormalEquations) {
   }
   const Line line = normal_equations(z, log_y);
   const Fit fit = regress(curve.x, log_y, Model::logarithmic);
-  EXPECT_NEAR(fit.parameters[0].estimate, line.a, 1e-10 * std::abs(line.a));   // rounding
-  EXPECT_NEAR(fit.parameters[1].estimate, line.b, 1e-10 * line.b);             // rounding
-  EXPECT_NEAR(fit.covariance[1], line.cov_ab, 1e-10 * std::abs(line.cov_ab));  // rounding
+  EXPECT_NEAR(fit.parameters[0].estimate, line.a, 1e-10 * std::abs(line.a));      // rounding
+  EXPECT_NEAR(fit.parameters[1].estimate, line.b, 1e-10 * line.b);                // rounding
+  EXPECT_NEAR(fit.covariance(0, 1), line.cov_ab, 1e-10 * std::abs(line.cov_ab));  // rounding
 }
 
 TEST(Regression, NonLinearFitIsAMinimumWithTheRightCovariance) {
@@ -147,8 +147,9 @@ TEST(Regression, NonLinearFitIsAMinimumWithTheRightCovariance) {
         for (std::size_t m = 0; m < count; ++m) {
           double normal = 0;
           for (std::size_t i = 0; i < curve.x.size(); ++i) normal += slope[k][i] * slope[m][i];
-          product += normal * fit.covariance[m * count + l];
-          largest = std::max(largest, std::abs(normal * fit.covariance[m * count + l]));
+          const double one = normal * fit.covariance(Eigen::Index(m), Eigen::Index(l));
+          product += one;
+          largest = std::max(largest, std::abs(one));
         }
         EXPECT_NEAR(product, k == l ? s2 : 0.0, 1e-7 * largest) << row.name;  // the differences'
       }

@@ -178,10 +178,9 @@ TEST(ViscousContact, TheErrorOfTheModulusAtOneSecondContainsThatOfTheExponent) {
   const Fit slow = fit_viscous(press.time, press.depth, press.force, test, Viscous::power_law);
   const double young = fit.parameters[0].estimate;
   const double log = std::log(10.0);
-  const std::size_t count = fit.parameters.size();
-  const double variance = fit.covariance[0] / (young * young) +
-                          2.0 * log * fit.covariance[1] / young +
-                          log * log * fit.covariance[count + 1];
+  const double variance = fit.covariance(0, 0) / (young * young) +
+                          2.0 * log * fit.covariance(0, 1) / young +
+                          log * log * fit.covariance(1, 1);
   const Estimate& other = slow.parameters[0];
   EXPECT_NEAR(other.estimate, young * std::pow(10.0, fit.parameters[1].estimate), 1e-6 * young);
   // Both searches end to about 1e-6 of a standard error.

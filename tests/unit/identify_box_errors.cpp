@@ -14,13 +14,16 @@ Unknown unknown(const std::string& key, double low, double high, Unknown::Scale 
   return {.key = key, .scale = scale, .unit = std::nullopt, .low = low, .high = high};
 }
 
-// The covariance of independent residuals along two directions, by rows.
-std::vector<double> white(double sigma) { return {sigma * sigma, 0.0, 0.0, sigma * sigma}; }
+using dense::Matrix;
+using dense::Rows;
+
+// The covariance of independent residuals along two directions.
+Matrix white(double sigma) { return sigma * sigma * Matrix::Identity(2, 2); }
 
 // Two columns: sums of squares 4 and 1, orthogonal.
 TEST(BoxErrors, AreThoseOfLinearLeastSquares) {
-  const std::vector<double> slopes{2.0, 0.0, 0.0, 1.0};
-  const BoxErrors errors = box_errors(slopes, 2, white(0.1), 2.0);
+  const Rows slopes{{2.0, 0.0}, {0.0, 1.0}};
+  const BoxErrors errors = box_errors(slopes, white(0.1), 2.0);
   EXPECT_EQ(errors.determined, 2);
   EXPECT_NEAR(errors.variance(0, 0), 0.01 / 4.0, 1e-15);  // rounding
   EXPECT_NEAR(errors.variance(1, 1), 0.01, 1e-15);
@@ -30,8 +33,8 @@ TEST(BoxErrors, AreThoseOfLinearLeastSquares) {
 
 TEST(BoxErrors, CorrelatedColumnsShareTheirError) {
   // J^T J = [[2, 1], [1, 1]], its inverse [[1, -1], [-1, 2]].
-  const std::vector<double> slopes{1.0, 0.0, 1.0, 1.0};
-  const BoxErrors errors = box_errors(slopes, 2, white(0.1), 2.0);
+  const Rows slopes{{1.0, 0.0}, {1.0, 1.0}};
+  const BoxErrors errors = box_errors(slopes, white(0.1), 2.0);
   EXPECT_NEAR(errors.variance(0, 0), 0.01, 1e-15);  // rounding
   EXPECT_NEAR(errors.variance(0, 1), -0.01, 1e-15);
   EXPECT_NEAR(errors.variance(1, 1), 0.02, 1e-15);
@@ -39,18 +42,18 @@ TEST(BoxErrors, CorrelatedColumnsShareTheirError) {
 
 // Noise that is larger along one direction reaches the unknown that this direction moves.
 TEST(BoxErrors, FollowTheNoiseOfEachDirection) {
-  const std::vector<double> slopes{2.0, 0.0, 0.0, 1.0};
-  const BoxErrors errors = box_errors(slopes, 2, std::vector{0.01, 0.003, 0.003, 0.04}, 2.0);
+  const Rows slopes{{2.0, 0.0}, {0.0, 1.0}};
+  const BoxErrors errors = box_errors(slopes, Matrix{{0.01, 0.003}, {0.003, 0.04}}, 2.0);
   EXPECT_NEAR(errors.variance(0, 0), 0.01 / 4.0, 1e-15);  // rounding
   EXPECT_NEAR(errors.variance(1, 1), 0.04, 1e-15);
   EXPECT_NEAR(std::abs(errors.variance(0, 1)), 0.003 / 2.0, 1e-15);
-  EXPECT_NEAR(errors.of_one[0], 1.0 / 4.0, 1e-15);
-  EXPECT_NEAR(errors.of_one[3], 1.0, 1e-15);
+  EXPECT_NEAR(errors.of_one(0, 0), 1.0 / 4.0, 1e-15);
+  EXPECT_NEAR(errors.of_one(1, 1), 1.0, 1e-15);
 }
 
 TEST(BoxErrors, ADirectionWiderThanHalfTheBoxIsATie) {
   const auto inseparable = [](double slope) {
-    return box_errors(std::vector<double>{1.0, 0.0, 0.0, slope}, 2, white(0.1), 2.0).inseparable;
+    return box_errors(Rows{{1.0, 0.0}, {0.0, slope}}, white(0.1), 2.0).inseparable;
   };
   // 2 sigma / slope is 0.5 at 0.4
   EXPECT_EQ(inseparable(0.41), (std::vector<char>{0, 0}));
@@ -62,8 +65,8 @@ TEST(BoxErrors, OfAProductOnlyTheProductIsDetermined) {
   const double range = std::exp(2.0);
   const std::vector<Unknown> unknowns{unknown("a", 1.0, range, Unknown::Scale::logarithmic),
                                       unknown("b", 1.0, range, Unknown::Scale::logarithmic)};
-  const std::vector<double> slopes{2.0, 4.0, 4.0, 8.0, 6.0, 12.0};
-  const BoxErrors errors = box_errors(slopes, 2, std::vector{1e-4}, 2.0);
+  const Rows slopes{{2.0, 4.0}, {4.0, 8.0}, {6.0, 12.0}};
+  const BoxErrors errors = box_errors(slopes, Matrix{{1e-4}}, 2.0);
   EXPECT_EQ(errors.determined, 1);
   EXPECT_EQ(errors.inseparable, (std::vector<char>{1, 1}));
   const auto found = combination(errors, unknowns, std::vector{0.5, 0.25}, 2.0);
@@ -82,7 +85,7 @@ TEST(BoxErrors, HertzsModulusIsNamedWhereItIsDetermined) {
         unknown(other, 0.2, 0.49, Unknown::Scale::linear)};
     const std::vector<double> u{0.5, 0.5};
     const BoxErrors errors =
-        box_errors(std::vector{std::log(100.0), slope, 0.0, 0.0}, 2, white(1e-3), 2.0);
+        box_errors(Rows{{std::log(100.0), slope}, {0.0, 0.0}}, white(1e-3), 2.0);
     return combination(errors, unknowns, u, 2.0).value().text;
   };
   const double nu = 0.345;
@@ -96,11 +99,11 @@ TEST(BoxErrors, HertzsModulusIsNamedWhereItIsDetermined) {
 // Noise below a hundred-thousandth has no meaning, and neither has a slope below a millionth of the
 // steepest; the weakest directions that are asked for are loose in any case.
 TEST(BoxErrors, WhatIsTooSmallToCount) {
-  EXPECT_EQ(box_errors(std::vector{2.0, 0.0, 0.0, 1e-6}, 2, white(0.0), 2.0).inseparable,
+  EXPECT_EQ(box_errors(Rows{{2.0, 0.0}, {0.0, 1e-6}}, white(0.0), 2.0).inseparable,
             (std::vector<char>{0, 1}));
-  EXPECT_EQ(determined_directions(std::vector{2.0, 0.0, 0.0, 1e-8}, 2).size(), 2U);  // one of two
-  EXPECT_EQ(determined_directions(std::vector{2.0, 0.0, 0.0, 1e-4}, 2).size(), 4U);
-  const BoxErrors weakest = box_errors(std::vector{2.0, 0.0, 0.0, 1.0}, 2, white(1e-3), 2.0, 1);
+  EXPECT_EQ(determined_directions(Rows{{2.0, 0.0}, {0.0, 1e-8}}).cols(), 1);  // of two
+  EXPECT_EQ(determined_directions(Rows{{2.0, 0.0}, {0.0, 1e-4}}).cols(), 2);
+  const BoxErrors weakest = box_errors(Rows{{2.0, 0.0}, {0.0, 1.0}}, white(1e-3), 2.0, 1);
   EXPECT_EQ(weakest.determined, 1);
   EXPECT_EQ(weakest.inseparable, (std::vector<char>{0, 1}));
 }
@@ -109,7 +112,7 @@ TEST(BoxErrors, WhatIsTooSmallToCount) {
 // more than a thousandth and more than its own error.
 TEST(BoxErrors, ASmallPartOfALooseDirectionIsNoTie) {
   const auto inseparable = [](double s, double sigma) {
-    return box_errors(std::vector{-s, 1.0, 0.0, 0.0}, 2, white(sigma), 2.0).inseparable[1] != 0;
+    return box_errors(Rows{{-s, 1.0}, {0.0, 0.0}}, white(sigma), 2.0).inseparable[1] != 0;
   };
   EXPECT_FALSE(inseparable(0.0005, 1e-5));
   EXPECT_FALSE(inseparable(0.01, 0.1));

@@ -46,7 +46,7 @@ TEST(BoxProfile, EndsWhereTheSquaresHaveRisen) {
   const double slope = 1.8;  // d (u + u^2) / du at 0.4
   const double own = sigma * sigma / left / (slope * slope);
   const double other = -slope * 0.5 / 2.25 * own;  // u_1 moves against u_0
-  const std::vector<double> covariance{own, other, other, sigma * sigma};
+  const dense::Matrix covariance{{own, other}, {other, sigma * sigma}};
   const Profile found = profile(curved.problem, curved.best, 0, covariance, sigma, t);
   ASSERT_TRUE(found.low && found.high);
   EXPECT_NEAR(*found.low, end(-1.0),
@@ -61,16 +61,16 @@ TEST(BoxProfile, EndsWhereTheSquaresHaveRisen) {
   for (const double u : {0.4, 0.5 * (0.4 + *found.low), 0.5 * (0.4 + *found.high)})
     EXPECT_TRUE(near(u)) << u;  // the best fit, and a point half way to either end
   // The same without a guess, and where the guess cannot be evaluated.
-  const std::vector<double> none(4, 0.0);
+  const dense::Matrix none = dense::Matrix::Zero(2, 2);
   EXPECT_NEAR(*profile(curved.problem, curved.best, 0, none, sigma, t).high, end(1.0), 1e-4);
   const CurvedProblem failing(0.52);
-  const std::vector<double> far{own, 10.0 * own, 10.0 * own, sigma * sigma};
+  const dense::Matrix far{{own, 10.0 * own}, {10.0 * own, sigma * sigma}};
   EXPECT_NEAR(*profile(failing.problem, failing.best, 0, far, sigma, t).high, end(1.0), 1e-4);
 }
 
 TEST(BoxProfile, IsOpenAtTheEdgeOfTheBox) {
   const CurvedProblem curved;
-  const std::vector<double> covariance{0.25, 0.0, 0.0, 0.25};
+  const dense::Matrix covariance = 0.25 * dense::Matrix::Identity(2, 2);
   const Profile found = profile(curved.problem, curved.best, 0, covariance, 1.0, 2.0);
   EXPECT_FALSE(found.low);  // the root rises to 1.1 at 0, and to 2.8 at 1
   EXPECT_TRUE(found.high);

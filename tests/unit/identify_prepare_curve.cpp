@@ -80,7 +80,7 @@ TEST(PrepareCurve, APressToAForceReachesTheDeepestRow) {
   const auto& step = std::get<scenario::Indent>(made.curve.curve->fixed().steps.front());
   EXPECT_FALSE(step.to.second);
   EXPECT_NEAR(step.to.value, 3e-3, 1e-8);  // 2 mm and 1 mm, and a margin of 1e-6
-  EXPECT_EQ(made.curve.excluded, 0);
+  EXPECT_EQ(made.curve.found.excluded, 0);
 }
 
 // The last row may lie beyond the end by rounding, without a longer history.
@@ -93,14 +93,14 @@ TEST(PrepareCurve, RoundingIsNoLongerHistory) {
   const std::string relax =
       muscle_column + "[[step]]\nkind = \"relax\"\nstrain = 0.02\ntime = \"1 s\"\n";
   const Prepared made(relax, measured, young_only);
-  EXPECT_EQ(made.curve.excluded, 0);
-  EXPECT_TRUE(made.curve.notes.empty()) << made.curve.notes.front();
+  EXPECT_EQ(made.curve.found.excluded, 0);
+  EXPECT_TRUE(made.curve.found.notes.empty()) << made.curve.found.notes.front();
   // A load that goes on to fall is still that of the hold.
   measured.x.push_back(3.0);
   measured.y.push_back(0.0);
   const Prepared longer(relax, measured, young_only);
-  EXPECT_EQ(longer.curve.excluded, 0);
-  EXPECT_NE(joined(longer.curve.notes, "\n").find("is lengthened to 3 s"), std::string::npos);
+  EXPECT_EQ(longer.curve.found.excluded, 0);
+  EXPECT_NE(joined(longer.curve.found.notes, "\n").find("is lengthened to 3 s"), std::string::npos);
 }
 
 // The strain of a hold is noisy: the loading ends where it reaches a thousandth of its largest.
@@ -116,16 +116,16 @@ TEST(PrepareCurve, AHoldBeginsWithinAThousandth) {
   const std::string compress =
       muscle_column + "[[step]]\nkind = \"compress\"\nstrain = 0.1\nrate = \"0.2 1/s\"\n";
   const Prepared made(compress, measured, young_only);
-  EXPECT_EQ(made.curve.x.size(), 51U);
+  EXPECT_EQ(made.curve.found.x.size(), 51U);
 }
 
 // Equal values in the middle of a curve are no limit of a sensor.
 TEST(PrepareCurve, ALimitIsAtTheEnd) {
   Measurement measured = rising_press(100, 2e-3);
   for (std::size_t i = 50; i < 100; ++i) measured.y[i] = i < 80 ? 0.5 : 0.49 - 1e-4 * (i - 80.0);
-  EXPECT_EQ(Prepared(ball + to_2_mm, measured, young_only).curve.excluded, 0);
+  EXPECT_EQ(Prepared(ball + to_2_mm, measured, young_only).curve.found.excluded, 0);
   for (std::size_t i = 80; i < 100; ++i) measured.y[i] = 0.5;
-  EXPECT_EQ(Prepared(ball + to_2_mm, measured, young_only).curve.excluded, 50);
+  EXPECT_EQ(Prepared(ball + to_2_mm, measured, young_only).curve.found.excluded, 50);
 }
 
 // Relative noise has a floor at a hundredth of the largest value, and a mean of n rows counts n

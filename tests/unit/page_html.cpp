@@ -8,7 +8,6 @@
 
 #include "base/text.h"
 #include "page/page.h"
-#include "page/png.h"
 #include "plot/gnuplot.h"
 #include "plot/gnuplot_text.h"
 #include "temporary_folder.h"

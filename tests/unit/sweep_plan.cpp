@@ -97,7 +97,7 @@ TEST_F(Plans, of_a_saltelli_design_may_have_cases_that_are_one) {
            "\"tissue.material\" = [\"skin\", \"muscle\"]\n"
            "\"tissue.poisson_ratio\" = { from = 0.1, to = 0.4 }\n");
   ASSERT_EQ(planned.count(), 32U);
-  const HashedNames files = hashed_inputs(planned.family);
+  const std::vector<HashedFile> files = scenario::hashed(planned.family.inputs);
   std::size_t twins = 0;
   for (std::size_t i = 0; i < planned.count(); ++i) {
     const std::uint64_t id = case_id(scenario::make_case(planned.family, i), files);
