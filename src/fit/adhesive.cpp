@@ -165,9 +165,7 @@ class AdhesiveFit {
               test_.way == ContactTest::Way::approach
                   ? "the way back from the deepest row"
                   : "the way to the deepest row; `--segment approach` fits it");
-    for (const double each : curve_.force) scale_ = std::max(scale_, std::abs(each));
-    if (!(scale_ > 0.0)) throw InputError({}, "the force is 0 at every point; name another `--y`");
-    for (double& each : curve_.force) each /= scale_;
+    scale_ = scale_to_one(curve_.force, no_force);
   }
 
   // The rows after the pull-off: from the first row behind the least force that has come back by

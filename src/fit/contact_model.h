@@ -181,6 +181,8 @@ struct AdhesiveTest {
   double distance = 0.3e-9;  // m, z_0
 };
 
+inline constexpr const char* no_force = "the force is 0 at every point; name another `--y`";
+
 // Fits the way back of a curve of depth (m) and force (N), or its approach (test.way), with one
 // row of the pull-off: rows in contact follow the law, rows after it the baseline, which is an
 // offset where three rows are free (none, and a tilt, on request). Parameters: E in kPa, w in

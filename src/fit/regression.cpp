@@ -193,9 +193,10 @@ void leave_out(Fit& fit, std::size_t points, const std::string& why) {
   fit.notes.push_back(excluded_text(points, why));
 }
 
-double scale_to_one(std::vector<double>& values) {
+double scale_to_one(std::vector<double>& values, const char* refusal) {
   double largest = 0.0;
   for (const double each : values) largest = std::max(largest, std::abs(each));
+  if (!(largest > 0.0) && refusal != nullptr) throw InputError({}, refusal);
   if (!(largest > 0.0)) return 1.0;
   for (double& each : values) each /= largest;
   return largest;

@@ -155,8 +155,9 @@ void need_points(const std::string& model, std::size_t needed, std::size_t usabl
 // Counts points that are not fitted, with the reason in the notes; does nothing for 0 points.
 void leave_out(Fit& fit, std::size_t points, const std::string& why);
 
-// Divides the values by their largest magnitude, and returns it; 1 where all are 0.
-double scale_to_one(std::vector<double>& values);
+// Divides the values by their largest magnitude, and returns it. Where all are 0, refuses them with
+// `refusal`, or returns 1 without one.
+double scale_to_one(std::vector<double>& values, const char* refusal = nullptr);
 
 // The version of the Ceres library, as `2.1.0`.
 [[nodiscard]] std::string ceres_version();

@@ -286,10 +286,7 @@ class UniaxialFit {
     keep([&](std::size_t i) { return (both_ ? std::abs(strain_[i]) : strain_[i]) >= low - 1e-12; });
     leave_out(fit_, outside_ + size - strain_.size(), "outside `--from` and `--to`");
     refuse_few();
-    for (const double each : stress_) scale_ = std::max(scale_, std::abs(each));
-    if (!(scale_ > 0.0))
-      throw InputError({}, "the stress is 0 at every point; name another column by `--y`");
-    for (double& each : stress_) each /= scale_;
+    scale_ = scale_to_one(stress_, "the stress is 0 at every point; name another column by `--y`");
   }
 
   // The toe of a specimen that settles between the platens: no stress up to a strain, then a line.

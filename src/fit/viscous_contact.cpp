@@ -215,12 +215,10 @@ class ViscousFit {
     in_ = as_index(high - depth_.begin()) + 1;
     begin_ = time_.front();
     length_ = time_.back() - begin_;
-    for (const double each : force_) scale_ = std::max(scale_, std::abs(each));
-    if (!(scale_ > 0.0)) throw InputError({}, "the force is 0 at every point; name another `--y`");
+    scale_ = scale_to_one(force_, no_force);
     for (std::size_t i = 0; i < time_.size(); ++i) {
       time_[i] = (time_[i] - begin_) / length_;
       depth_[i] = (depth_[i] - low_) / range_;
-      force_[i] /= scale_;
     }
     const std::size_t count = std::min(time_.size(), most_knots);
     knots_.time = block_means(time_, count);
