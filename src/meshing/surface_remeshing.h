@@ -25,8 +25,9 @@ struct Remeshed {
 };
 
 // Around these places the surfaces have at most this distance from each other, m. Where no surface
-// with half of the triangles is near enough, one serves that is up to `looser` times as far as
-// others elsewhere; of needles with sharp edges without such tries, and anywhere.
+// with half of the triangles (a sixth of 20 000 and more) is near enough, one serves that is up to
+// `looser` times as far as others elsewhere; of needles with sharp edges without such tries, and
+// anywhere.
 struct Nearer {
   std::vector<Vec3> places = {};  // m
   double radius = 0.0;            // m

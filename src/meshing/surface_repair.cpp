@@ -400,6 +400,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
   add_part(taken, parts[as_index(own - 1)], volumes[as_index(own - 1)] < 0.0);
   constexpr int most_named = 3;
   int specks = 0, hollows = 0, beside = 0;
+  bool touching = false;
   std::string others, cavities;
   for (int i = 1; i <= count; ++i) {
     if (i == own) continue;
@@ -423,6 +424,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
     list += (list.empty() ? "" : ", ") + std::string("part ") + std::to_string(i) +
             near_text(geometry::enclosed(other).centroid) + " with " + volume_text(share) +
             (cuts ? ", which cuts or touches it" : "");
+    touching = touching || cuts;
   }
   surface = std::move(taken);
   const std::string number = "part " + std::to_string(own) + " of " + std::to_string(count);
@@ -435,6 +437,7 @@ std::string choose_part(geometry::Surface& surface, const std::string& name,
   if (!others.empty()) text += ", without " + others;
   if (beside > most_named) text += ", and " + many(beside - most_named, "smaller part");
   if (specks > 0) text += ", and " + many(specks, "speck") + " excluded";
+  if (touching) text += "; join what cuts or touches it to one surface if both are the body";
   return text;
 }
 

@@ -238,7 +238,7 @@ class Checker {
     if (aside != nullptr && surface == nullptr && meshed == nullptr)
       return problem(aside,
                      "`" + std::string(aside) +
-                         "` is for bodies from files; leave it out, or give the body as a file");
+                         "` is for bodies from files; give the body as a file, or leave it out");
     const bool turned = aside != nullptr || up != "z";
     if (turned && (finger.x || finger.y))
       problem(finger.x ? "finger.x" : "finger.y",

@@ -102,7 +102,9 @@ void refuse_beside(const scenario::Resolved& scenario, const SurfaceTouch& touch
   if (!before.empty() && scenario.finger.towards.empty())
     throw InputError(
         place_of(family.document, "finger.at"),
-        before + ", which lies on an inner wall; give a place on the outside, or `finger.towards`");
+        before +
+            ", which lies on an inner wall, or on a surface so rough that its normal leads through "
+            "another place; give a place on the outside, `finger.towards`, or a smoother surface");
   const double distance = scenario.finger.beside;
   if (distance <= near(scenario, touch)) return;
   throw InputError(place_of(family.document, "finger.at"),

@@ -146,7 +146,10 @@ TEST(SurfaceRepair, a_part_that_cuts_the_one_taken_is_neither_a_cavity_nor_a_fau
     const std::string text =
         told(with(body(), body(), Vec3(0.05, 0.015, 0.01), scale, false), rounding);
     EXPECT_NE(text.find("part 1 of 2 is taken, without part 2 near ("), std::string::npos) << text;
-    EXPECT_TRUE(text.ends_with(" of its volume, which cuts or touches it")) << text;
+    EXPECT_TRUE(
+        text.ends_with(" of its volume, which cuts or touches it; join what cuts or touches "
+                       "it to one surface if both are the body"))
+        << text;
   }
 }
 

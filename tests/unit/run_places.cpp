@@ -341,8 +341,9 @@ TEST_F(PlacedBody, a_place_on_an_inner_wall_is_refused_or_told) {
     EXPECT_EQ(error.problems().front().place.line, 8);
     EXPECT_EQ(error.problems().front().message,
               meets +
-                  ", which lies on an inner wall; give a place on the outside, or "
-                  "`finger.towards`");
+                  ", which lies on an inner wall, or on a surface so rough that its normal leads "
+                  "through another place; give a place on the outside, `finger.towards`, or a "
+                  "smoother surface");
   }
   const auto notes = [](const scenario::Family& family) {
     const Choice choice = run::choose(family.cases.front());

@@ -575,6 +575,9 @@ TEST(FingerPress, ExtrapolatesWithTheSquareOfTheSize) {
   const Extrapolated one = extrapolated({sizes.data(), 1}, {forces.data(), 1});
   EXPECT_EQ(one.force, forces[0]);
   EXPECT_EQ(one.error, error_of_one_mesh * forces[0]);
+  // One that rises does not converge yet.
+  const std::array rising{1.0, 1.01};
+  EXPECT_NEAR(extrapolated({sizes.data(), 2}, rising).error, error_of_one_mesh, 1e-3);
   const Extrapolated two = extrapolated({sizes.data(), 2}, {forces.data(), 2});
   EXPECT_NEAR(two.force, 1.0, 1e-12);
   EXPECT_NEAR(two.error, 0.5 * 0.4 / 16.0, 1e-12);  // more than its least, 1 %
