@@ -446,6 +446,13 @@ TEST(FileMesh, OfAFewTrianglesHasTheNodesAskedFor) {
   }
 }
 
+// The mesh of an organ with noise had kept all of its triangles.
+TEST(FileMesh, OfANoisyScanHasAboutTheNodesAskedFor) {
+  const FileMesh made = tetgen_file(rough_ellipsoid(), {}, {.nodes = 300}, time_given);
+  EXPECT_LT(made.mesh.nodes.size(), 600u);
+  EXPECT_NE(made.warning.find("the two surfaces are at most"), std::string::npos) << made.warning;
+}
+
 TEST(Cells, GiveAboutAsManyNodesAsAskedFor) {
   // A cube of 60 mm in cells of 10 mm: 218 vertices on its surface, 125 inside.
   EXPECT_NEAR(cell_for(sampled(geometry::Cuboid{{0.06, 0.06, 0.06}}, 5e-3), 343), 10e-3, 1.5e-3);
