@@ -178,7 +178,7 @@ std::string without_numbers(const std::string& key) {
 // The path of the key of a row, below the heading of its section, such as "`[tissue.mesh]`"; rows
 // below a heading without a table have whole paths.
 std::string path_of(const std::string& row, const std::string& section) {
-  const std::string name = row.substr(3, row.find('`', 3) - 3);
+  std::string name = row.substr(3, row.find('`', 3) - 3);
   const auto quotes = split(section, '`');
   if (quotes.size() < 2) return name;
   std::string table = quotes[1];
