@@ -31,8 +31,10 @@ constexpr double shorter_there = 0.5;                              // the same o
 constexpr double finer = 1.0 / 8.0;  // edges with which tries begin, of the spacing
 constexpr std::size_t fine = 15000;  // triangles with which they begin of needles, about
 
-// Where a farther surface serves, a nearer one has at most half of the triangles, and a sixth of a
-// large number: noise of a scan as large as the distance took 13 000 of 34 000.
+// A surface that is so many times as far as others serves where none is nearer with at most half of
+// the triangles, or a sixth of a large number: noise of a scan as large as the distance took 13 000
+// of 34 000.                                                                          decision 434
+constexpr double looser = 4.0;
 constexpr std::size_t few_of = 2;
 constexpr std::size_t few_of_large = 6;
 
@@ -308,8 +310,9 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
   const bool sharp = has_sharp_edge(surface);
   const bool uneven = count_needles(surface) > 0 && (!sharp || (given >= few && given < large));
   if (sharp && !uneven && given < large) return std::nullopt;
-  const double looser = uneven && sharp ? nearer.looser : 1.0;
-  const Nearer around = looser > 1.0 ? Nearer{} : nearer;
+  const bool at_once = uneven && sharp;  // as far as it may be elsewhere, everywhere
+  const double part = at_once ? looser : 1.0;
+  const Nearer around = at_once ? Nearer{} : nearer;
   const double limit = remeshing_limit(surface, spacing);
   const double volume = geometry::enclosed(surface).volume;
   const geometry::BoxTree original(surface);
@@ -344,8 +347,8 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
             measure();
           }
         if (by_place) add_crossings(*made, wrong);
-        if (wrong.empty() && (by_place || looser > 1.0 || count_needles(*made) == 0) &&
-            std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= looser * most_volume &&
+        if (wrong.empty() && (by_place || at_once || count_needles(*made) == 0) &&
+            std::abs(geometry::enclosed(*made).volume / volume - 1.0) <= part * most_volume &&
             closed(*made))
           return Remeshed{std::move(*made), distance};
         // The next try would take longer than all before.
@@ -363,22 +366,20 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
     const geometry::BoxTree tree(from);
     Attempt by_place(from, tree, spacing);
     over = false;
-    if (nearer.looser > 1.0) {
-      const std::size_t some = given / (given < large ? few_of : few_of_large);
-      if (auto found = found_in(by_place, most_tries, true, some, limit)) return found;
-      over = false;
-      by_place.restore(spacing);
-    }
-    return found_in(by_place, most_tries, true, given, nearer.looser * limit);
+    const std::size_t some = given / (given < large ? few_of : few_of_large);
+    if (auto found = found_in(by_place, most_tries, true, some, limit)) return found;
+    over = false;
+    by_place.restore(spacing);
+    return found_in(by_place, most_tries, true, given, looser * limit);
   };
   if (sharp && !uneven) return by_places(surface);
   constexpr int even_tries = 3;
   const std::size_t most = uneven ? std::max(2 * given, few) : given;
-  if (auto found = found_in(attempt, even_tries, false, most, looser * limit)) return found;
+  if (auto found = found_in(attempt, even_tries, false, most, part * limit)) return found;
   if (over) return std::nullopt;
   // Below half of what was asked for, a surface with thin limbs has many more triangles than it
   // needs where it has none.
-  if (looser <= 1.0) {
+  if (!at_once) {
     if (auto found = by_places(surface)) return found;
     // Long needles stay long where they are collapsed, their even triangles do not.
     if (uneven)
@@ -388,7 +389,7 @@ std::optional<Remeshed> remeshed(const Surface& surface, double spacing, const N
   over = false;
   attempt.restore(spacing);
   for (int i = 0; i < even_tries; ++i) attempt.shorten();
-  return found_in(attempt, 5, false, most, looser * limit);
+  return found_in(attempt, 5, false, most, part * limit);
 }
 
 }  // namespace palpate::meshing

@@ -24,20 +24,19 @@ struct Remeshed {
   double distance = 0.0;  // m, the largest between the two surfaces, in both directions
 };
 
-// Around these places the surfaces have at most this distance from each other, m. Where no surface
-// with half of the triangles (a sixth of 20 000 and more) is near enough, one serves that is up to
-// `looser` times as far as others elsewhere; of needles with sharp edges without such tries, and
-// anywhere.
+// Around these places the surfaces have at most this distance from each other, m.
 struct Nearer {
   std::vector<Vec3> places = {};  // m
   double radius = 0.0;            // m
   double distance = 0.0;
-  double looser = 1.0;
 };
 
 // A surface with edges of about `spacing` (m) for the same body. It has passed check_closed(), has
 // the same volume within 0.5 %, keeps creases and has no needles, and its largest distance from
 // `surface` is at most remeshing_limit(); where details do not allow that, its edges are shorter.
+// Where no surface with half of the triangles (a sixth of 20 000 and more) is so near, one serves
+// that is up to four times as far, but not around the places of `nearer`; of needles with sharp
+// edges without such tries, and anywhere.
 // Empty if no such surface with fewer triangles is found, or, of a surface with needles, with less
 // than twice as many (or 2000). Where an edge of the body is sharper than five degrees, only 20 000
 // triangles and more, whose edges are shorter around details alone and may stay needles, become

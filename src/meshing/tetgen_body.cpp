@@ -428,13 +428,12 @@ geometry::Body body_of(geometry::Surface surface, std::span<const geometry::Incl
 FileMesh tetgen_file(geometry::Surface surface, std::span<const geometry::Inclusion> inclusions,
                      const Target& target, double time_limit) {
   constexpr double many = 0.1;           // of the triangles
-  constexpr double looser = 4.0;         // a surface, where none is nearer, as that of a noisy scan
   constexpr double with_needles = 20.0;  // s
   FileMesh made;
   const std::size_t needles = count_needles(surface);
   const double spacing = target.nodes > 0 ? cell_for(surface, target.nodes) : target.edge_length;
   const auto remesh = [&] {
-    auto better = remeshed(surface, spacing, {.looser = looser});
+    auto better = remeshed(surface, spacing);
     if (!better) return false;
     made.warning = told(surface, needles, *better);
     surface = std::move(better->surface);

@@ -148,17 +148,15 @@ void support(const BodyOrder& order, std::span<const Plane> mirrors, const Box& 
 }  // namespace
 
 Body make_body(const BodyOrder& order) {
-  // Between the surface of a file and a coarser one: under the finger, of its travel, and
-  // elsewhere, of what springs have, where none is nearer.                             decision 434
+  // Between the surface of a file and a coarser one under the finger, of its travel. decision 434
   constexpr double of_travel = 0.02;
-  constexpr double looser = 4.0;
   const Box extent = extent_of(order);
   const std::vector<Plane> mirrors = mirrors_of(order, extent);
   MeshOrder wanted{.shape = order.shape,
                    .surface = order.surface,
                    .coarser = order.coarser,
                    .nearer = {order.touched, around * std::sqrt(order.radius * order.travel),
-                              of_travel * order.travel, looser},
+                              of_travel * order.travel},
                    .movable = order.movable,
                    .mesh = order.mesh,
                    .middles = order.middles,

@@ -79,6 +79,16 @@ Surface rough_ellipsoid() {
   return rough;
 }
 
+Surface coarser(const Surface& surface, double spacing, const Nearer& nearer) {
+  const auto made = remeshed(surface, spacing, nearer);
+  if (!made) {
+    ADD_FAILURE() << "none was found";
+    return surface;
+  }
+  check_closed(made->surface, "made");
+  return made->surface;
+}
+
 long pages_of_children() {
   rusage used{};
   getrusage(RUSAGE_CHILDREN, &used);
@@ -273,7 +283,7 @@ TEST(CoarseSurface, IsNearerAroundPlaces) {
 TEST(CoarseSurface, IsOneThatServesWhereNoneIsNear) {
   const Surface rough = rough_ellipsoid();
   const double limit = remeshing_limit(rough, 15e-3);
-  const auto coarse = remeshed(rough, 15e-3, {.looser = 4.0});
+  const auto coarse = remeshed(rough, 15e-3);
   ASSERT_TRUE(coarse.has_value());
   check_closed(coarse->surface, "coarse");
   EXPECT_LT(coarse->surface.triangles.size(), rough.triangles.size() / 4);
@@ -284,17 +294,13 @@ TEST(CoarseSurface, IsOneThatServesWhereNoneIsNear) {
 // Of many triangles one had been taken that was farther there, without a word.
 TEST(CoarseSurface, OfALargeRoughOneIsNearAroundPlacesAllTheSame) {
   const Surface rough = rough_ellipsoid();
-  const Vec3 top(0.03, 0.025, 0.04);
-  constexpr double radius = 4e-3;
-  constexpr double distance = 0.02e-3;
-  const auto coarse = remeshed(rough, 15e-3, {{top}, radius, distance, 4.0});
-  ASSERT_TRUE(coarse.has_value());
-  check_closed(coarse->surface, "coarse");
-  EXPECT_LT(coarse->surface.triangles.size(), rough.triangles.size() / 4);
-  const geometry::BoxTree tree(coarse->surface);
+  const Nearer nearer{{Vec3(0.03, 0.025, 0.04)}, 4e-3, 0.02e-3};
+  const Surface coarse = coarser(rough, 15e-3, nearer);
+  EXPECT_LT(coarse.triangles.size(), rough.triangles.size() / 4);
+  const geometry::BoxTree tree(coarse);
   for (const Vec3& vertex : rough.vertices) {
-    if ((vertex - top).norm() > radius) continue;
-    ASSERT_LE(std::sqrt(tree.nearest(vertex).distance_squared), distance);
+    if ((vertex - nearer.places[0]).norm() > nearer.radius) continue;
+    ASSERT_LE(std::sqrt(tree.nearest(vertex).distance_squared), nearer.distance);
   }
 }
 
@@ -326,20 +332,16 @@ TEST(Needles, AreRemeshedAndTheRimStays) {
 // Those of a rod had all been kept, and its mesh of them had taken a minute.
 TEST(Needles, AreEvenAndNearAroundPlaces) {
   const Surface needles = strips(200, 0.015, 0.030);
-  const Vec3 side(0.015, 0.0, 0.015);
-  constexpr double radius = 2.5e-3;
-  constexpr double distance = 0.02e-3;
-  const auto even = remeshed(needles, 8e-3, {{side}, radius, distance, 4.0});
-  ASSERT_TRUE(even.has_value());
-  check_closed(even->surface, "even");
-  EXPECT_LT(even->surface.triangles.size(), needles.triangles.size() / 2);
-  EXPECT_LT(count_needles(even->surface), 10u);
-  const geometry::BoxTree tree(even->surface);
+  const Nearer nearer{{Vec3(0.015, 0.0, 0.015)}, 2.5e-3, 0.02e-3};
+  const Surface even = coarser(needles, 8e-3, nearer);
+  EXPECT_LT(even.triangles.size(), needles.triangles.size() / 2);
+  EXPECT_LT(count_needles(even), 10u);
+  const geometry::BoxTree tree(even);
   for (int i = -3; i <= 3; ++i) {
     const double angle = 2.0 * std::numbers::pi / 200.0 * i;
     const Vec3 on(0.015 * std::cos(angle), 0.015 * std::sin(angle), 0.015);
-    ASSERT_LT((on - side).norm(), radius);
-    EXPECT_LE(std::sqrt(tree.nearest(on).distance_squared), distance) << i;
+    ASSERT_LT((on - nearer.places[0]).norm(), nearer.radius);
+    EXPECT_LE(std::sqrt(tree.nearest(on).distance_squared), nearer.distance) << i;
   }
 }
 
@@ -357,7 +359,7 @@ TEST(Needles, OfASurfaceWithASharpEdgeAreRemeshed) {
   Surface needles = strips(count, 0.015, 0.080);
   for (const int v : {0, count}) needles.vertices[as_index(v)].x() += 1.7e-3;  // a narrow fin
   check_closed(needles, "fin");
-  const auto even = remeshed(needles, 8e-3, {.looser = 4.0});
+  const auto even = remeshed(needles, 8e-3);
   ASSERT_TRUE(even.has_value());
   check_closed(even->surface, "even");
   EXPECT_LT(even->surface.triangles.size(), 1000u);
